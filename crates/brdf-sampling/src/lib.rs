@@ -1,0 +1,1 @@
+//! Direction samplers built from any Brdf.

@@ -1,0 +1,1 @@
+//! Tables of measured reflectance: interpolate, repair, combine.

@@ -1,0 +1,23 @@
+//! The contract between measured or modelled reflectance and whatever renders, plots or checks it.
+//!
+//! - [`Brdf`]: what the surface does. [`DirectionSampler`]: how a direction is chosen for it.
+//!   [`Paired`]: one of each, as the [`Material`] a renderer holds.
+//! - [`Measured`]: reflectance in the channels of its file; [`Projected`] turns it into a [`Brdf`].
+//! - [`HalfDiff`]: Rusinkiewicz' angles.
+//!
+//! Only reflection is implemented. Transmission would bring the eta^2 factor of non-symmetric
+//! scattering [Veach1997]; its place is [`Material`], which knows the direction of transport.
+//!
+//! World space, files and particular models are unknown here.
+
+mod contract;
+mod half_diff;
+mod lanes;
+mod material;
+mod measured;
+
+pub use contract::{Brdf, DirectionSample, DirectionSampler, SampleLanes, Symmetry};
+pub use half_diff::{HalfDiff, direction};
+pub use lanes::{LANES, Lanes3};
+pub use material::{EvalPacket, Material, Paired, SamplePacket};
+pub use measured::{Measured, Projected, Status};

@@ -1,0 +1,88 @@
+//! Reflectance with as many channels as its file has, and how it becomes a [`Brdf`] of `N` channels.
+
+use crate::contract::{Brdf, Symmetry};
+use glam::DVec3;
+use spectrum::Basis;
+
+/// How an evaluated value came about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Status {
+    /// Exactly a measured sample.
+    Measured,
+    /// Between measured samples.
+    Interpolated,
+    /// No measurement reaches here; a named policy filled it.
+    Filled,
+}
+
+/// Reflectance in the channels it was measured in.
+pub trait Measured: Send + Sync {
+    /// What the channels mean; its length is the channel count.
+    fn basis(&self) -> &Basis;
+
+    /// f_r(wi, wo) in 1/sr into `out` (one entry a channel), and where it came from.
+    ///
+    /// Zero and [`Status::Filled`] where either direction is at or below the horizon.
+    ///
+    /// # Panics
+    /// If `out` is not as long as the basis.
+    fn eval_native(&self, wi: DVec3, wo: DVec3, out: &mut [f64]) -> Status;
+
+    /// The symmetries that hold exactly.
+    fn symmetry(&self) -> Symmetry;
+}
+
+/// A [`Measured`] seen through a linear map to `N` channels (colour conversion, resampling to bins).
+#[derive(Clone, Debug)]
+pub struct Projected<M, const N: usize> {
+    measured: M,
+    /// Row per native channel: what one unit of it adds to each of the `N` channels.
+    matrix: Vec<[f64; N]>,
+}
+
+impl<M: Measured, const N: usize> Projected<M, N> {
+    /// `matrix` has one row a native channel. `None` if the row count differs from the basis.
+    pub fn new(measured: M, matrix: Vec<[f64; N]>) -> Option<Self> {
+        (measured.basis().len() == matrix.len()).then_some(Self { measured, matrix })
+    }
+}
+
+/// Native channels the projection holds on the stack before it allocates.
+const INLINE: usize = 80;
+
+impl<M: Measured, const N: usize> Brdf<N> for Projected<M, N> {
+    fn eval(&self, wi: DVec3, wo: DVec3) -> [f64; N] {
+        let (mut inline, mut heap) = ([0.0; INLINE], Vec::new());
+        let native = match inline.get_mut(..self.matrix.len()) {
+            Some(slice) => slice,
+            None => {
+                heap.resize(self.matrix.len(), 0.0);
+                &mut heap[..]
+            }
+        };
+        self.measured.eval_native(wi, wo, native);
+        let mut out = [0.0; N];
+        for (value, row) in native.iter().zip(&self.matrix) {
+            for (o, m) in out.iter_mut().zip(row) {
+                *o += value * m;
+            }
+        }
+        out
+    }
+
+    fn symmetry(&self) -> Symmetry {
+        self.measured.symmetry()
+    }
+}
+
+impl<T: Measured + ?Sized> Measured for std::sync::Arc<T> {
+    fn basis(&self) -> &Basis {
+        (**self).basis()
+    }
+    fn eval_native(&self, wi: DVec3, wo: DVec3, out: &mut [f64]) -> Status {
+        (**self).eval_native(wi, wo, out)
+    }
+    fn symmetry(&self) -> Symmetry {
+        (**self).symmetry()
+    }
+}

@@ -1,0 +1,1 @@
+//! Polar plots, curves and slices as SVG and PNG; knows numbers, not BRDFs.

@@ -1,0 +1,1 @@
+//! Camera, shapes, lights, BVH, integrator and film; sees only the Brdf trait.
