@@ -1,1 +1,5 @@
 //! Tables of measured reflectance: interpolate, repair, combine.
+
+pub mod grid;
+
+pub use grid::{GridError, Gridded, GriddedN, HalfDiffTable, Interpolation, PhiDomain};
