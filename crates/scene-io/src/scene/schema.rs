@@ -161,6 +161,9 @@ pub struct ShapeSpec {
     /// Radiance it sends out on its front side: makes it a light (spheres and quads).
     #[serde(default)]
     pub emission: Option<Colour>,
+    /// Whether its back is black; otherwise both sides reflect alike.
+    #[serde(default)]
+    pub one_sided: bool,
     /// Steps applied in order.
     #[serde(default)]
     pub transform: Vec<TransformSpec>,
