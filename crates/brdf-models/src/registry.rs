@@ -70,10 +70,17 @@ macro_rules! models {
 
 models! {
     lambert::INFO => build,
+    phong::CLASSIC => build_classic,
+    phong::LEWIS => build_lewis,
+    blinn_phong::INFO => build,
+    lafortune::INFO => build,
     ward::ORIGINAL => build_original,
     ward::CHEAP => build_cheap,
     ward::DUER => build_duer,
     ward::BOUNDED => build_bounded,
     cook_torrance::INFO => build,
     ggx::INFO => build,
+    oren_nayar::INFO => build,
+    eon::INFO => build,
+    ashikhmin_shirley::INFO => build,
 }

@@ -67,6 +67,11 @@ impl Parameter {
         Self::scalar(name, title, (1e-4, 1.0), default)
     }
 
+    /// An exponent of a cosine, [0, 1e6].
+    pub(crate) const fn exponent(name: &'static str, title: &'static str, default: f64) -> Self {
+        Self::scalar(name, title, (0.0, 1e6), default)
+    }
+
     /// A roughness that follows another one unless given.
     pub(crate) const fn same(name: &'static str, title: &'static str, other: &'static str) -> Self {
         Self {
