@@ -139,11 +139,19 @@ mod tests {
                 let blend = grid.blend(direction(1.57 * x, 40.0 * x));
                 let sum: f64 = blend.iter().map(|b| b.1).sum();
                 assert!((sum - 1.0).abs() < 1e-12, "weights add to {sum}");
-                assert!(blend.iter().all(|b| b.0 < grid.len() && b.1 >= -1e-12), "{blend:?}");
+                assert!(
+                    blend.iter().all(|b| b.0 < grid.len() && b.1 >= -1e-12),
+                    "{blend:?}"
+                );
             }
             // slices at theta = 0 know no azimuth, so start at 1; the last lies at the rim
-            for k in (0..grid.len()).filter(|k| k % grid.n_theta != 0 && (k + 1) % grid.n_theta != 0) {
-                let best = grid.blend(grid.viewer(k)).into_iter().max_by(|a, b| a.1.total_cmp(&b.1));
+            for k in
+                (0..grid.len()).filter(|k| k % grid.n_theta != 0 && (k + 1) % grid.n_theta != 0)
+            {
+                let best = grid
+                    .blend(grid.viewer(k))
+                    .into_iter()
+                    .max_by(|a, b| a.1.total_cmp(&b.1));
                 assert_eq!(best.unwrap().0, k, "node {k} is its own slice");
             }
         }

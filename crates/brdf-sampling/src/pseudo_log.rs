@@ -15,7 +15,6 @@ const ONE: u64 = 1023 << 52;
 
 /// L(x) and x L'(x), for x >= 1.
 #[inline]
-#[expect(clippy::cast_possible_wrap, reason = "an exponent has 11 bits")]
 pub(crate) fn pseudo_log(x: f64) -> (f64, f64) {
     let bits = x.to_bits();
     let e = ((bits >> 52) as i32 - 1023) as f64;

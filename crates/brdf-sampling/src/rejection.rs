@@ -228,8 +228,13 @@ impl DirectionSampler for Rejection {
         let wi = if rng.uniform() < FLOOR {
             cosine_hemisphere(rng.uniform2())
         } else {
-            let (frame, k) = (ViewFrame::new(wo), pick(&self.grid.blend(wo), rng.uniform()));
-            let there = Slice::new(self.grid, k).chart().inverse(self.draw(k, &mut rng));
+            let (frame, k) = (
+                ViewFrame::new(wo),
+                pick(&self.grid.blend(wo), rng.uniform()),
+            );
+            let there = Slice::new(self.grid, k)
+                .chart()
+                .inverse(self.draw(k, &mut rng));
             let chart = Chart::new(frame.sin_o, frame.cos_o, R0);
             frame.to_world(chart.forward(there.ab).wi)
         };

@@ -54,7 +54,10 @@ impl std::fmt::Display for CacheError {
         match self {
             Self::TooFewSlices => write!(out, "a rejection cache needs at least 2 x 1 slices"),
             Self::Length { expected, found } => {
-                write!(out, "a rejection cache of {expected} slices has {found} entries")
+                write!(
+                    out,
+                    "a rejection cache of {expected} slices has {found} entries"
+                )
             }
             Self::Value { slice } => write!(
                 out,

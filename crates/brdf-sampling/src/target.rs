@@ -42,11 +42,7 @@ impl fmt::Debug for Target<'_> {
 
 /// `f` cos theta_i with everything that is not a finite positive number replaced by 0.
 #[inline]
-pub(crate) fn sanitised(
-    f: &(impl Fn(DVec3, DVec3) -> f64 + ?Sized),
-    wi: DVec3,
-    wo: DVec3,
-) -> f64 {
+pub(crate) fn sanitised(f: &(impl Fn(DVec3, DVec3) -> f64 + ?Sized), wi: DVec3, wo: DVec3) -> f64 {
     if wi.z <= 0.0 || wo.z <= 0.0 {
         return 0.0;
     }

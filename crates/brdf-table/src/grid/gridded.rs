@@ -1,9 +1,10 @@
 //! A table together with the way it is read: what renderers and checks see.
 
 use crate::grid::error::GridError;
+use crate::grid::lanes::LaneLayout;
 use crate::grid::lookup::Interpolation;
 use crate::grid::table::HalfDiffTable;
-use brdf::{Brdf, Measured, Status, Symmetry};
+use brdf::{Brdf, LANES, Lanes3, Measured, Status, Symmetry};
 use glam::DVec3;
 use spectrum::Basis;
 use std::sync::Arc;
@@ -37,6 +38,7 @@ impl Measured for Gridded {
 pub struct GriddedN<const N: usize> {
     table: Arc<HalfDiffTable>,
     interpolation: Interpolation,
+    lanes: LaneLayout,
 }
 
 impl<const N: usize> GriddedN<N> {
@@ -45,6 +47,7 @@ impl<const N: usize> GriddedN<N> {
     pub fn new(table: Arc<HalfDiffTable>, interpolation: Interpolation) -> Result<Self, GridError> {
         if table.channels() == N {
             Ok(Self {
+                lanes: LaneLayout::new(table.layout()),
                 table,
                 interpolation,
             })
@@ -78,5 +81,10 @@ impl<const N: usize> Brdf<N> for GriddedN<N> {
 
     fn symmetry(&self) -> Symmetry {
         self.table.symmetry()
+    }
+
+    #[inline]
+    fn eval_lanes(&self, wi: &Lanes3, wo: &Lanes3) -> [[f32; LANES]; N] {
+        self.lanes.eval(self.table.nodes(), self.interpolation, wi, wo)
     }
 }

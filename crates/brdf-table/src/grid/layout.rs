@@ -80,12 +80,19 @@ impl Layout {
             .checked_mul(dims[2].checked_add(2)?)?;
         let bytes = nodes.checked_mul(channels)?.checked_mul(size_of::<f64>())?;
         isize::try_from(bytes).ok()?;
+        u32::try_from(nodes).ok()?; // lanes address nodes with 32 bits
         Some(Self { dims, phi })
     }
 
     /// Index of the cell in file order: phi_d fastest, theta_h slowest.
     pub(crate) const fn cell(&self, [h, d, p]: [usize; 3]) -> usize {
         p + self.dims[2] * (d + self.dims[1] * h)
+    }
+
+    /// The cell with a given index.
+    pub(crate) const fn unravel(&self, cell: usize) -> [usize; 3] {
+        let [_, n_d, n_p] = self.dims;
+        [cell / (n_d * n_p), cell / n_p % n_d, cell % n_p]
     }
 
     /// Index of the node at the centre of a cell.

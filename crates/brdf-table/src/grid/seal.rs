@@ -51,53 +51,40 @@ impl Unsealed<'_> {
     /// Gives every missing cell the value of the nearest cell at smaller theta_d; where there is none, at
     /// smaller theta_h; in the first rows, where both are missing, at larger angles. Zero if no cell has a value.
     fn pad_missing(&mut self) {
-        let [n_h, n_d, n_p] = self.layout.dims;
-        for h in 0..n_h {
-            for d in 1..n_d {
-                for p in 0..n_p {
-                    self.pad(self.layout.cell([h, d - 1, p]), [h, d - 1, p], [h, d, p]);
-                }
-            }
-        }
-        for h in 1..n_h {
-            for d in 0..n_d {
-                for p in 0..n_p {
-                    self.pad(self.layout.cell([h - 1, d, p]), [h - 1, d, p], [h, d, p]);
-                }
-            }
-        }
-        for h in 0..n_h {
-            for d in (1..n_d).rev() {
-                for p in 0..n_p {
-                    self.pad(self.layout.cell([h, d, p]), [h, d, p], [h, d - 1, p]);
-                }
-            }
-        }
-        for h in (1..n_h).rev() {
-            for d in 0..n_d {
-                for p in 0..n_p {
-                    self.pad(self.layout.cell([h, d, p]), [h, d, p], [h - 1, d, p]);
-                }
-            }
-        }
-        for h in 0..n_h {
-            for d in 0..n_d {
-                for p in 0..n_p {
-                    if self.cells[self.layout.cell([h, d, p])] == Cell::Missing {
-                        let c = self.channels;
-                        let k = self.layout.node([h, d, p]) * c;
-                        self.nodes[k..k + c].fill(0.0);
-                    }
-                }
+        self.sweep(1, true);
+        self.sweep(0, true);
+        self.sweep(1, false);
+        self.sweep(0, false);
+        let c = self.channels;
+        for k in 0..self.layout.cells() {
+            if self.cells[k] == Cell::Missing {
+                let node = self.layout.node(self.layout.unravel(k));
+                self.nodes[node * c..(node + 1) * c].fill(0.0);
             }
         }
     }
 
-    fn pad(&mut self, source: usize, from: [usize; 3], to: [usize; 3]) {
-        let target = self.layout.cell(to);
-        if self.cells[target] == Cell::Missing && self.cells[source] != Cell::Missing {
-            self.copy(self.layout.node(from), self.layout.node(to));
-            self.cells[target] = Cell::Filled;
+    /// Copies along one axis, from each cell to its missing neighbour at larger (or smaller) angles.
+    fn sweep(&mut self, axis: usize, upward: bool) {
+        let count = self.layout.cells();
+        for k in 0..count {
+            let target = if upward { k } else { count - 1 - k };
+            if self.cells[target] != Cell::Missing {
+                continue;
+            }
+            let to = self.layout.unravel(target);
+            let mut from = to;
+            let inside = if upward {
+                from[axis] = from[axis].wrapping_sub(1);
+                to[axis] > 0
+            } else {
+                from[axis] += 1;
+                from[axis] < self.layout.dims[axis]
+            };
+            if inside && self.cells[self.layout.cell(from)] != Cell::Missing {
+                self.copy(self.layout.node(from), self.layout.node(to));
+                self.cells[target] = Cell::Filled;
+            }
         }
     }
 
