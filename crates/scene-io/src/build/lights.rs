@@ -33,7 +33,8 @@ pub(super) fn lights(file: &SceneFile, places: &Places) -> Result<Lights, Error>
                 environment = Some(Environment::Constant(samples(*radiance)));
             }
             LightSpec::Image { .. } => {
-                let image = image(light, places).map_err(|e| e.in_field(&format!("lights[{k}]")))?;
+                let image =
+                    image(light, places).map_err(|e| e.in_field(&format!("lights[{k}]")))?;
                 environment = image.map(Environment::Image);
             }
         }
@@ -63,7 +64,8 @@ fn image(light: &LightSpec, places: &Places) -> Result<Option<EnvironmentImage<3
     let pixels: Vec<Samples<3>> = picture.pixels.iter().map(radiance).collect();
     if let Some(k) = pixels.iter().position(|p| !p.is_finite()) {
         let (x, y) = (k % picture.width, k / picture.width);
-        let message = format!("expected finite radiance, found an infinite one at pixel ({x}, {y})");
+        let message =
+            format!("expected finite radiance, found an infinite one at pixel ({x}, {y})");
         return Err(Error::invalid(message).in_file(&path));
     }
     let side = |n: usize| u32::try_from(n).map_err(|_| Error::invalid("image too large"));

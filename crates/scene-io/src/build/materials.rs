@@ -3,7 +3,9 @@
 use super::Places;
 use crate::error::Error;
 use crate::material::{MaterialOptions, SamplerReport, Surface, load_measured};
-use crate::scene::{FileMaterial, MaterialSpec, MixMaterial, ModelMaterial, SamplerName, SceneFile};
+use crate::scene::{
+    FileMaterial, MaterialSpec, MixMaterial, ModelMaterial, SamplerName, SceneFile,
+};
 use brdf::Material;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -38,8 +40,8 @@ pub(super) fn load(file: &SceneFile, places: &Places) -> Result<Used, Error> {
         index: Index::new(),
     };
     for name in main.chain(others).filter(|n| on_shapes(n)) {
-        let (material, report) = one(file, name, places)
-            .map_err(|e| e.in_field(&format!("materials.{name}")))?;
+        let (material, report) =
+            one(file, name, places).map_err(|e| e.in_field(&format!("materials.{name}")))?;
         used.index.insert(name.clone(), used.materials.len());
         used.materials.push(material);
         used.reports.push(report);
@@ -53,7 +55,9 @@ fn one(
     places: &Places,
 ) -> Result<(Box<dyn Material<3>>, MaterialReport), Error> {
     let spec = file.materials.get(name).ok_or_else(|| {
-        Error::invalid(format!("expected a material, found nothing named \"{name}\""))
+        Error::invalid(format!(
+            "expected a material, found nothing named \"{name}\""
+        ))
     })?;
     let default = file.render.sampler;
     let (surface, path) = surface(file, spec, places)?;
@@ -105,7 +109,9 @@ fn surface(
             for (name, weight) in &mix.parts {
                 // Mixtures of mixtures were refused when the scene was checked.
                 let spec = file.materials.get(name).ok_or_else(|| {
-                    Error::invalid(format!("expected a material, found nothing named \"{name}\""))
+                    Error::invalid(format!(
+                        "expected a material, found nothing named \"{name}\""
+                    ))
                 })?;
                 parts.push((surface(file, spec, places)?.0, weight.0));
             }

@@ -2,7 +2,9 @@
 
 use brdf::Measured;
 use brdf_formats::Format;
-use brdf_table::{CellReport, FillReport, Gridded, ThinPlate};
+use brdf_table::{CellReport, Gridded};
+#[cfg(any())]
+use brdf_table::{FillReport, ThinPlate};
 use std::fmt;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -34,6 +36,7 @@ pub enum Detail {
         /// Cells by verdict.
         cells: CellReport,
     },
+    #[cfg(any())]
     /// Scattered rows, interpolated by thin plates.
     Scattered {
         /// Rows in the file.
@@ -54,6 +57,7 @@ pub enum Detail {
 #[derive(Clone)]
 pub(super) enum Form {
     Grid(Gridded),
+    #[cfg(any())]
     ThinPlate(Arc<ThinPlate>),
     /// Only ever asked through `measured`.
     Opaque,

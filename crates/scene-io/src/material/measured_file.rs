@@ -7,10 +7,9 @@ use crate::load;
 use crate::scene::{InterpolationName, NegativeName};
 use brdf::Measured;
 use brdf_formats::{File, Format, MERL_SCALE, MerlStream, PREFIX};
-use brdf_table::{
-    CellPolicy, Gridded, Interpolation, LayerMode, LayeredTable, NegativePolicy, PhiDomain,
-    Policies, SampleCloud, TableBuilder, ThinPlate,
-};
+use brdf_table::{CellPolicy, Gridded, Interpolation, PhiDomain, TableBuilder};
+#[cfg(any())]
+use brdf_table::{LayerMode, LayeredTable, NegativePolicy, Policies, SampleCloud, ThinPlate};
 use spectrum::{Basis, RgbSpace};
 use std::io::{Chain, Cursor, Read};
 use std::path::Path;
@@ -62,12 +61,15 @@ fn from_source(
 
 fn parsed(file: File, length: u64, options: &MaterialOptions) -> Result<LoadedMeasured, Error> {
     let format = file.format();
+    #[cfg(any())]
     let invalid = |e: brdf_table::CloudError| Error::invalid(e.to_string());
     match &file {
+        #[cfg(any())]
         File::Astm(astm) => {
             let cloud = SampleCloud::from_astm(astm).map_err(invalid)?;
             scattered(format, &cloud, length, options)
         }
+        #[cfg(any())]
         File::PbrtText(text) => {
             let cloud = SampleCloud::from_pbrt_text(text).map_err(invalid)?;
             scattered(format, &cloud, length, options)
@@ -116,8 +118,7 @@ fn merl(
     };
     let invalid = |e: brdf_table::GridError| Error::invalid(e.to_string());
     let basis = Basis::Rgb(RgbSpace::srgb());
-    let mut builder =
-        TableBuilder::new(dims, phi, basis, MERL_SCALE.to_vec()).map_err(invalid)?;
+    let mut builder = TableBuilder::new(dims, phi, basis, MERL_SCALE.to_vec()).map_err(invalid)?;
     while let Some(values) = stream.next_chunk().map_err(broken)? {
         builder.push(values).map_err(invalid)?;
     }
@@ -145,6 +146,7 @@ fn only_scattered(name: InterpolationName) -> Error {
     ))
 }
 
+#[cfg(any())]
 fn scattered(
     format: &'static Format,
     cloud: &SampleCloud,
@@ -172,6 +174,7 @@ fn scattered(
     })
 }
 
+#[cfg(any())]
 fn thin_plate(
     format: &'static Format,
     cloud: &SampleCloud,

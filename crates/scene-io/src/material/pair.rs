@@ -10,7 +10,7 @@ use brdf_sampling::{
 };
 use brdf_table::GriddedN;
 use glam::DVec3;
-use spectrum::LUMINANCE_SRGB;
+const LUMINANCE_SRGB: [f64; 3] = [0.2126, 0.7152, 0.0722];
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -62,7 +62,7 @@ pub(super) fn pair<B: Brdf<3> + Clone + 'static>(
         SamplerName::Rejection => {
             let key = key(&brdf);
             rejection(brdf, key, cache)?
-        },
+        }
         SamplerName::Hvt => {
             return Err(Error::unsupported(
                 "the sampler \"hvt\" is not supported yet; \"inversion\" is the nearest to it",
@@ -101,13 +101,21 @@ fn rejection<B: Brdf<3> + Clone + 'static>(
         Arc::new(move |wi, wo| luminance(&brdf, wi, wo))
     };
     let n_phi = if symmetry.isotropic { 1 } else { options.n_phi };
-    let sizes = [options.n_theta as u64, n_phi as u64, options.proposal as u64];
+    let sizes = [
+        options.n_theta as u64,
+        n_phi as u64,
+        options.proposal as u64,
+    ];
     let mut notes = Vec::new();
-    let maxima = cache.rejection(combine(&[key, sizes[0], sizes[1], sizes[2]]), &mut notes, || {
-        Rejection::new(Arc::clone(&target), symmetry, options)
-            .cache()
-            .clone()
-    });
+    let maxima = cache.rejection(
+        combine(&[key, sizes[0], sizes[1], sizes[2]]),
+        &mut notes,
+        || {
+            Rejection::new(Arc::clone(&target), symmetry, options)
+                .cache()
+                .clone()
+        },
+    );
     let sampler = Rejection::from_cache(target, maxima, options.max_tries)
         .map_err(|e| Error::invalid(e.to_string()).in_field("sampler"))?;
     let (material, mut report) = with(brdf, sampler, SamplerName::Rejection);
@@ -123,7 +131,12 @@ fn luminance(brdf: &impl Brdf<3>, wi: DVec3, wo: DVec3) -> f64 {
 /// Tells tables apart by all their values, the same on every machine.
 pub(super) fn table_key(grid: &GriddedN<3>) -> u64 {
     let table = grid.table();
-    let layout = format!("{:?} {:?} {:?}", table.dims(), table.phi_domain(), grid.interpolation());
+    let layout = format!(
+        "{:?} {:?} {:?}",
+        table.dims(),
+        table.phi_domain(),
+        grid.interpolation()
+    );
     let mut key = content_hash(layout.as_bytes());
     let mut slab = Vec::new();
     let [_, n_d, n_p] = table.dims();
