@@ -254,8 +254,8 @@ fn broken_pbrt_text_files_are_refused_with_one_clear_line() {
             "line 8: 500nm: expected a finite number, found `zero`",
         ),
         (
-            "0.6",
-            "NaN",
+            " 0.6",
+            " NaN",
             "line 9: 600.5nm: expected a finite number, found `NaN`",
         ),
         (
