@@ -161,8 +161,7 @@ pub(crate) const FORMAT: Format = Format {
 /// A wavelength count alone on the first line, and the usual comment above
 /// it or numbers below it.
 fn detect(prefix: &[u8], _total_len: u64) -> bool {
-    let lines = Lines::new(prefix).take_while(|line| line.control().is_none());
-    let (comments, data): (Vec<_>, Vec<_>) = lines
+    let (comments, data): (Vec<_>, Vec<_>) = Lines::new(prefix)
         .filter(|line| !line.is_blank())
         .take(DETECT_LINES)
         .partition(|line| line.comment().is_some());
