@@ -191,10 +191,10 @@ impl<const N: usize> Workspace<N> {
                 if go_on {
                     bucket = surface.material;
                 }
-                if surface.one_sided && self.from_behind(kernel, i) {
+                if surface.one_sided && self.behind(kernel, i) {
                     bucket = materials;
                 }
-                if surface.light != NONE && count && !self.from_behind(kernel, i) {
+                if surface.light != NONE && count && !self.behind(kernel, i) {
                     self.meet_light(kernel, depth, i, surface.light);
                 }
             }
@@ -215,7 +215,7 @@ impl<const N: usize> Workspace<N> {
     }
 
     /// Whether path `i` met the back of its primitive.
-    fn from_behind(&self, kernel: &Kernel<'_, N>, i: usize) -> bool {
+    fn behind(&self, kernel: &Kernel<'_, N>, i: usize) -> bool {
         let (rays, hits, k) = (
             &self.paths.rays[i / LANES],
             &self.hits[i / LANES],
@@ -260,7 +260,12 @@ impl<const N: usize> Workspace<N> {
     }
 
     /// Gathers the vertices `order[range]` into blocks with random numbers and points on lights; how many blocks.
-    fn prepare(&mut self, kernel: &Kernel<'_, N>, depth: u32, range: std::ops::Range<usize>) -> usize {
+    fn prepare(
+        &mut self,
+        kernel: &Kernel<'_, N>,
+        depth: u32,
+        range: std::ops::Range<usize>,
+    ) -> usize {
         let dimension = Kernel::<N>::dimension;
         let mut blocks = 0;
         for which in self.order[range].chunks(LANES) {

@@ -4,9 +4,9 @@ use crate::camera::Rays;
 use crate::filter::Sampler;
 use crate::light::Lights;
 use crate::math::mix;
-use crate::points_shim::Points;
 use crate::scene::Scene;
 use crate::settings::{Settings, Strategy};
+use sampling::Points;
 
 /// Dimension pairs a vertex uses: material, point on the light, choice of the light.
 const PER_VERTEX: u32 = 3;
@@ -71,7 +71,8 @@ impl<'a, const N: usize> Kernel<'a, N> {
     /// A number in [0, 1) for the roulette, apart from the points that must stay even.
     #[inline]
     pub(crate) fn chance(&self, stream: u32, index: u32, depth: u32) -> f32 {
-        let key = ((u64::from(stream) << 32) | u64::from(index)) ^ mix(self.seed ^ u64::from(depth));
+        let key =
+            ((u64::from(stream) << 32) | u64::from(index)) ^ mix(self.seed ^ u64::from(depth));
         (mix(key) >> 40) as f32 * (1.0 / 16_777_216.0)
     }
 }
