@@ -1,6 +1,7 @@
 //! Any material as linear sRGB reflectance.
 
 use super::loaded::{Form, LoadedMeasured};
+use super::measured_model;
 use super::options::MaterialOptions;
 use super::pair::{self, SamplerReport};
 use crate::cache::Cache;
@@ -94,7 +95,7 @@ impl Surface {
                 return Err(Error::invalid(message).in_field("interpolation"));
             }
         };
-        let table = tabulated(&*parsed.built.brdf);
+        let table = measured_model::measured(&*parsed.built.brdf)?;
         let notes = vec![format!("{parsed} on a grid of 90 x 90 x 180 cells")];
         let table = scaled(Arc::new(table), options.scale)?;
         Self::grid(table, interpolation, notes)
@@ -180,18 +181,6 @@ fn parse(text: &str) -> Result<ParsedModel<3>, Error> {
 
 fn srgb() -> Basis {
     Basis::Rgb(RgbSpace::srgb())
-}
-
-fn tabulated(brdf: &dyn Brdf<3>) -> HalfDiffTable {
-    let phi = if brdf.symmetry().reciprocal {
-        PhiDomain::Reciprocal
-    } else {
-        PhiDomain::Full
-    };
-    HalfDiffTable::from_fn(MERL_DIMS, phi, srgb(), |wi, wo, out| {
-        out.copy_from_slice(&brdf.eval(wi, wo));
-        Status::Measured
-    })
 }
 
 #[cfg(any())]
