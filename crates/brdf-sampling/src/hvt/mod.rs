@@ -12,6 +12,7 @@ mod problem;
 mod shape;
 mod slices;
 mod table;
+mod validation;
 
 pub use options::{HvtOptions, MAX_B, Preset};
 
@@ -26,6 +27,7 @@ use problem::{Problem, Unknowns};
 use rayon::prelude::*;
 use shape::Shape;
 use table::{Place, Table};
+use validation::Validation;
 
 /// Radial scales tried, radians.
 const SCALES: [f64; 9] = [
@@ -106,27 +108,32 @@ impl Hvt {
     }
 }
 
-/// The scale whose coarse table has the least variance.
+/// The scale whose coarse table has the least variance at the validation points.
 fn best_scale(target: &Target<'_>, shape: Shape) -> f64 {
     let coarse = Shape {
-        n_theta: shape.n_theta.min(6),
-        n_a: shape.n_a.min(24),
+        n_theta: shape.n_theta.min(7),
+        n_a: shape.n_a.min(32),
         n_b: shape.n_b.min(9),
     };
     let effort = Effort {
-        multiplicative: 3,
+        multiplicative: 4,
         newton: 0,
         gradients: 0,
     };
+    let validation = Validation::new(target);
     let costs: Vec<f64> = SCALES
         .par_iter()
         .map(|&r0| {
             let problem = Problem::new(target, coarse, r0, 1);
             if problem.is_empty() {
-                f64::INFINITY
-            } else {
-                optimise(&problem, effort).1
+                return f64::INFINITY;
             }
+            let (x, _) = optimise(&problem, effort);
+            validation.variance(&Hvt {
+                table: Table::new(coarse, x),
+                r0,
+                predicted: 0.0,
+            })
         })
         .collect();
     let best = (0..SCALES.len()).min_by(|&a, &b| costs[a].total_cmp(&costs[b]));

@@ -19,6 +19,8 @@ use rayon::prelude::*;
 /// Points of a cell along a and b.
 const SUB: [usize; 2] = [3, 2];
 pub(crate) const POINTS: usize = SUB[0] * SUB[1];
+/// Weight of viewers beside their share of theta_o: grazing ones have hardly any.
+const GRAZING: f64 = 0.4;
 /// Viewers are kept this far above the horizon, in cos theta_o.
 const MIN_COS: f64 = 2e-3;
 
@@ -45,6 +47,8 @@ struct View {
     /// Slice below and weight of the one above.
     k: usize,
     t: f64,
+    /// Weight among the viewers, before normalisation.
+    omega: f64,
     /// Bilinear weights of the points of a cell at its corners (i,j), (i,j+1), (i+1,j), (i+1,j+1).
     hats: [[f32; 4]; POINTS],
     /// omega T^2 / (int T)^2 / points, cell after cell.
@@ -81,11 +85,10 @@ impl Problem {
             .into_par_iter()
             .filter_map(|m| view(target, shape, r0, m, n))
             .collect();
-        let total: f64 = views.len() as f64;
+        let total: f64 = views.iter().map(|v| v.omega).sum();
         for v in &mut views {
-            for s in &mut v.s {
-                *s /= total as f32;
-            }
+            let share = (v.omega / total) as f32;
+            v.s.iter_mut().for_each(|s| *s *= share);
         }
         Self { shape, views }
     }
@@ -317,6 +320,7 @@ fn view(target: &Target<'_>, shape: Shape, r0: f64, m: usize, n: usize) -> Optio
     Some(View {
         k,
         t,
+        omega: slices::spread(tau) + GRAZING,
         hats,
         s,
         d,

@@ -18,6 +18,13 @@ pub(crate) fn viewer(tau: f64) -> (f64, f64) {
     (root * (2.0 - root * root).max(0.0).sqrt(), cos)
 }
 
+/// d theta_o / d tau: what a viewer at `tau` stands for.
+pub(crate) fn spread(tau: f64) -> f64 {
+    let root = tau * (2.0 - tau);
+    // cos = 1 - root^2, so d theta = 2 root d root / sin = 2 d root / sqrt(2 - root^2)
+    4.0 * (1.0 - tau) / (2.0 - root * root).sqrt()
+}
+
 /// The slice below, and the weight of the one above.
 #[inline]
 pub(crate) fn blend(tau: f64, n: usize) -> (usize, f64) {
