@@ -45,7 +45,10 @@ fn load(path: &str) -> Result<Gridded, Box<dyn Error>> {
 }
 
 fn options(name: &str) -> Option<HvtOptions> {
-    if let Some(p) = Preset::ALL.iter().find(|p| format!("{p:?}").eq_ignore_ascii_case(name)) {
+    if let Some(p) = Preset::ALL
+        .iter()
+        .find(|p| format!("{p:?}").eq_ignore_ascii_case(name))
+    {
         return Some(p.options());
     }
     // N_THETAxN_AxN_B[xNEWTON]
@@ -88,10 +91,15 @@ fn measure(target: Target<'_>, options: HvtOptions) -> (Hvt, Row) {
 }
 
 /// Nanoseconds of sample and pdf.
-fn cost(sampler: &Hvt) -> (f64, f64) {
+fn cost(sampler: &impl DirectionSampler) -> (f64, f64) {
     let mut rng = sampling::Rng::new(5);
     let inputs: Vec<(DVec3, DVec2)> = (0..4_000)
-        .map(|_| (direction(1.5 * rng.uniform(), 6.0 * rng.uniform()), rng.uniform2()))
+        .map(|_| {
+            (
+                direction(1.5 * rng.uniform(), 6.0 * rng.uniform()),
+                rng.uniform2(),
+            )
+        })
         .collect();
     let best = |f: &dyn Fn()| {
         let mut best = f64::INFINITY;
@@ -128,10 +136,14 @@ fn main() -> Result<(), Box<dyn Error>> {
             None => files.push(arg),
         }
     }
+    let (sample_ns, pdf_ns) = cost(&brdf_sampling::Cosine);
+    println!("for comparison, cosine: {sample_ns:.1} ns sample, {pdf_ns:.1} ns pdf");
     for name in &names {
         let options = options(name).ok_or("sizes: preset or AxBxC")?;
         let mut means = Vec::new();
-        println!("## {name}\nmaterial | bytes | build ms | ns sample | ns pdf | r0 | {SHOWN_DEG:?} | mean | worst angle | max w | predicted");
+        println!(
+            "## {name}\nmaterial | bytes | build ms | ns sample | ns pdf | r0 | {SHOWN_DEG:?} | mean | worst angle | max w | predicted"
+        );
         for path in &files {
             let table = load(path)?;
             let f = |wi: DVec3, wo: DVec3| {
@@ -144,8 +156,16 @@ fn main() -> Result<(), Box<dyn Error>> {
             let stem = path.rsplit('/').next().unwrap_or(path);
             println!(
                 "{stem:30} | {} | {:.0} | {:.0} | {:.0} | {:.4} | {} | {:.5} | {:.5} | {:.2} | {:.5}",
-                sampler.bytes(), row.build_ms, row.sample_ns, row.pdf_ns, sampler.scale(),
-                shown.join(" "), row.mean, row.worst, row.max_weight, sampler.predicted_variance()
+                sampler.bytes(),
+                row.build_ms,
+                row.sample_ns,
+                row.pdf_ns,
+                sampler.scale(),
+                shown.join(" "),
+                row.mean,
+                row.worst,
+                row.max_weight,
+                sampler.predicted_variance()
             );
             means.push(row.mean);
         }

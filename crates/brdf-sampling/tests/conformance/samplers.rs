@@ -3,7 +3,8 @@
 use crate::targets::Case;
 use brdf::DirectionSampler;
 use brdf_sampling::{
-    Cosine, Hvt, Inversion, InversionOptions, Preset, Proposal, Rejection, RejectionOptions, Target, Uniform,
+    Cosine, Hvt, Inversion, InversionOptions, Preset, Proposal, Rejection, RejectionOptions,
+    Target, Uniform,
 };
 
 /// A sampler with a name; names begin with the type's.
