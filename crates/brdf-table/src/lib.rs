@@ -1,12 +1,14 @@
 //! Tables of measured reflectance: interpolate, repair, combine.
 
 pub mod grid;
+pub mod rgl;
 pub mod scattered;
 
 pub use grid::{
-    CellPolicy, CellReport, GridError, Gridded, GriddedN, HalfDiffTable, Interpolation, PhiDomain,
-    TableBuilder, directional_albedo, mix,
+    CellPolicy, CellReport, GridError, Gridded, GriddedN, HalfDiffTable, Interpolation, MerlLoss,
+    PhiDomain, TableBuilder, directional_albedo, mix,
 };
+pub use rgl::{RglN, RglTable};
 pub use scattered::{
     BeyondPolicy, CloudError, DeadRows, GapPolicy, KdNearest, LayerMode, LayeredTable,
     NegativePolicy, Policies, Resampled, SampleCloud, ThinPlate, resample,
