@@ -31,7 +31,9 @@ impl Camera {
     pub(crate) fn check(&self) -> Result<(), &'static str> {
         let forward = self.target - self.eye;
         let finite = self.eye.is_finite() && self.target.is_finite() && self.up.is_finite();
-        let across = forward.normalize_or_zero().cross(self.up.normalize_or_zero());
+        let across = forward
+            .normalize_or_zero()
+            .cross(self.up.normalize_or_zero());
         let fov = self.vertical_fov_deg > 0.0 && self.vertical_fov_deg < 180.0;
         if !finite {
             Err("eye, target and up must be finite")

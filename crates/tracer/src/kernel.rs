@@ -26,6 +26,8 @@ pub(crate) struct Kernel<'a, const N: usize> {
     pub(crate) max_depth: u32,
     pub(crate) roulette: u32,
     seed: u64,
+    /// The instruction set of this machine.
+    pub(crate) arch: pulp::Arch,
     /// Whether vertices ask lights.
     pub(crate) ask_lights: bool,
     /// Whether light that a path meets after its first vertex counts.
@@ -56,6 +58,7 @@ impl<'a, const N: usize> Kernel<'a, N> {
             max_depth: settings.max_depth,
             roulette: settings.roulette.unwrap_or(u32::MAX),
             seed: mix(settings.seed),
+            arch: pulp::Arch::new(),
             ask_lights: settings.strategy != Strategy::BsdfOnly && lights.any(),
             count_met: settings.strategy != Strategy::LightOnly,
             weigh: settings.strategy == Strategy::Mis,

@@ -1,6 +1,9 @@
 //! Scenes whose radiance is known on paper, and properties every render must have.
 
-#![expect(clippy::unwrap_used, reason = "a scene of a test that can't be built fails it")]
+#![expect(
+    clippy::unwrap_used,
+    reason = "a scene of a test that can't be built fails it"
+)]
 
 mod closed_form;
 mod common;
