@@ -52,8 +52,8 @@ pub enum Detail {
     Rows {
         /// Rows in the file.
         rows: usize,
-        /// Rows with a negative channel.
-        negative_rows: usize,
+        /// Negative values over all rows and channels.
+        negative_values: usize,
     },
 }
 

@@ -189,7 +189,7 @@ fn scattered(
         bytes: length,
         detail: Detail::Rows {
             rows: cloud.len(),
-            negative_rows: cloud.negatives().iter().copied().max().unwrap_or(0),
+            negative_values: cloud.negatives().iter().sum(),
         },
         form: Form::Opaque,
     })
