@@ -1,1 +1,24 @@
-//! For tests only: chi-square, Z-test, fixtures.
+//! For tests only: statistical tests of samplers, quadrature, tolerances and where the data lies.
+//!
+//! Goals: one chi-square test that a wrong sampler can't pass ([`chi2::test`]), tests of means
+//! ([`z_test`], [`t_test`]), quadrature to check densities and energy against ([`integrate`]).
+//! Everything is told by closures on plain arrays; all seeds are fixed, so a test that passes once
+//! passes always.
+//! Not here: reflectance, samplers, files.
+
+pub mod chi2;
+mod close;
+mod data;
+pub mod domain;
+pub mod integrate;
+mod mean;
+mod rng;
+mod significance;
+pub mod special;
+
+pub use close::{assert_close, assert_relative, relative_error};
+pub use data::{data_dir, data_dir_or_skip};
+pub use domain::Domain;
+pub use mean::{MeanTest, t_test, within_standard_errors, z_test};
+pub use rng::Rng;
+pub use significance::{sidak, significant};

@@ -1,0 +1,27 @@
+//! Regular tables over Rusinkiewicz' half and difference angles: the MERL layout, generalised.
+//!
+//! [`HalfDiffTable`] holds the cells, [`Gridded`] and [`GriddedN`] interpolate them; [`TableBuilder`] takes the
+//! values of a file and a named [`CellPolicy`], [`mix`] adds tables.
+//! Layout, cell placement and the averaging at the poles: `docs/tables.md`.
+
+mod albedo;
+mod builder;
+mod combine;
+mod error;
+mod fast_math;
+mod gridded;
+mod lanes;
+mod layout;
+mod lookup;
+mod mask;
+mod seal;
+mod table;
+
+pub use albedo::directional_albedo;
+pub use builder::{CellPolicy, CellReport, TableBuilder};
+pub use combine::mix;
+pub use error::GridError;
+pub use gridded::{Gridded, GriddedN};
+pub use layout::PhiDomain;
+pub use lookup::Interpolation;
+pub use table::HalfDiffTable;

@@ -1,0 +1,22 @@
+//! Where measured files for tests lie, if anywhere.
+
+use std::path::PathBuf;
+
+/// The folder named by the environment variable `GONIO_DATA`; `None` if it is unset or empty.
+#[must_use]
+pub fn data_dir() -> Option<PathBuf> {
+    std::env::var_os("GONIO_DATA")
+        .filter(|v| !v.is_empty())
+        .map(PathBuf::from)
+}
+
+/// [`data_dir`], printing `skipped: GONIO_DATA is not set` if there is none.
+#[must_use]
+#[expect(clippy::print_stderr, reason = "a skipped test must say so")]
+pub fn data_dir_or_skip() -> Option<PathBuf> {
+    let dir = data_dir();
+    if dir.is_none() {
+        eprintln!("skipped: GONIO_DATA is not set");
+    }
+    dir
+}
