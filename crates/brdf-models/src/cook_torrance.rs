@@ -12,13 +12,15 @@ use crate::half::{Half, from_tan2, reflect};
 use crate::lobe::{SpecularLobe, share};
 use crate::registry::{Built, Laws, ModelInfo, Parameter, Values, microfacet};
 
-/// f = kd/pi + F D G / (4 ci co), D Beckmann, G = min(1, 2 hz ci / h.wo, 2 hz co / h.wo).
+/// f = kd/pi + ks F D G / (4 ci co), D Beckmann, G = min(1, 2 hz ci / h.wo, 2 hz co / h.wo).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CookTorrance<const N: usize> {
     /// Root mean square slope times sqrt 2, [1e-4, 1].
     pub m: f64,
     /// Reflectance of the facets.
     pub fresnel: Fresnel<N>,
+    /// Weight of the lobe per channel, 1 for bare facets; at most 1 - `diffuse` keeps the energy.
+    pub specular: [f64; N],
     /// Albedo of an added Lambert lobe.
     pub diffuse: [f64; N],
 }
@@ -26,13 +28,14 @@ pub struct CookTorrance<const N: usize> {
 pub(crate) const INFO: ModelInfo = ModelInfo {
     name: "cook-torrance",
     title: "Beckmann microfacets in V-cavities",
-    formula: "kd/pi + F D G / (4 ci co), D = exp(-tan^2 d/m^2)/(pi m^2 cos^4 d), G = min(1, 2 hz ci/h.wo, 2 hz co/h.wo)",
+    formula: "kd/pi + ks F D G / (4 ci co), D = exp(-tan^2 d/m^2)/(pi m^2 cos^4 d), G = min(1, 2 hz ci/h.wo, 2 hz co/h.wo)",
     citation: "CookTorrance1982",
     parameters: &[
         Parameter::roughness("m", "rms slope times sqrt 2", 0.2),
         microfacet::F0,
         microfacet::N,
         microfacet::K,
+        Parameter::albedo("ks", "weight of the lobe", 1.0),
         Parameter::albedo("kd", "albedo of the Lambert lobe", 0.0),
     ],
     laws: Laws {
@@ -41,7 +44,7 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
     },
     examples: &[
         "m=0.2,n=cu,k=cu",
-        "m=0.6,f0=0.05,kd=0.5/0.3/0.1",
+        "m=0.6,f0=0.05,ks=0.5,kd=0.5/0.3/0.1",
         "m=0.03",
         "m=1",
     ],
@@ -51,6 +54,7 @@ pub(crate) fn build<const N: usize>(values: &Values) -> Built<N> {
     Built::new(CookTorrance {
         m: values.scalar("m"),
         fresnel: microfacet::fresnel(values),
+        specular: values.channels("ks"),
         diffuse: values.channels("kd"),
     })
 }
@@ -82,7 +86,7 @@ impl<const N: usize> Brdf<N> for CookTorrance<N> {
         let open = 0.25 / (wi.z * wo.z);
         let lobe = self.ndf(&half) * groove.min(open);
         let f = self.fresnel.eval(half.cos_d());
-        std::array::from_fn(|c| self.diffuse[c] * FRAC_1_PI + f[c] * lobe)
+        std::array::from_fn(|c| self.diffuse[c] * FRAC_1_PI + self.specular[c] * f[c] * lobe)
     }
 
     fn symmetry(&self) -> Symmetry {
@@ -93,7 +97,9 @@ impl<const N: usize> Brdf<N> for CookTorrance<N> {
 impl<const N: usize> SpecularLobe for CookTorrance<N> {
     #[inline]
     fn probability(&self, wo: DVec3) -> f64 {
-        share(&self.fresnel.eval(wo.z.min(1.0)), &self.diffuse)
+        let f = self.fresnel.eval(wo.z.min(1.0));
+        let weight: [f64; N] = std::array::from_fn(|c| self.specular[c] * f[c]);
+        share(&weight, &self.diffuse)
     }
 
     fn sample_lobe(&self, wo: DVec3, u: DVec2) -> DVec3 {

@@ -12,10 +12,10 @@ use crate::half::{Half, reflect};
 use crate::lobe::{SpecularLobe, share};
 use crate::registry::{Built, Laws, ModelInfo, Parameter, Values, microfacet};
 
-/// f = kd/pi + F D G2 / (4 ci co).
+/// f = kd/pi + ks F D G2 / (4 ci co).
 ///
 /// With s = |(ax w.x, ay w.y, w.z)| the Smith term is G2 = 2 ci co / (s_i co + s_o ci), so that
-/// f = F D / (2 (s_i co + s_o ci)) + kd/pi: no division by a cosine remains.
+/// f = ks F D / (2 (s_i co + s_o ci)) + kd/pi: no division by a cosine remains.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ggx<const N: usize> {
     /// Roughness along x, [1e-4, 1].
@@ -24,6 +24,8 @@ pub struct Ggx<const N: usize> {
     pub alpha_y: f64,
     /// Reflectance of the facets.
     pub fresnel: Fresnel<N>,
+    /// Weight of the lobe per channel, 1 for bare facets; at most 1 - `diffuse` keeps the energy.
+    pub specular: [f64; N],
     /// Albedo of an added Lambert lobe, which does not know the Fresnel term.
     pub diffuse: [f64; N],
 }
@@ -31,7 +33,7 @@ pub struct Ggx<const N: usize> {
 pub(crate) const INFO: ModelInfo = ModelInfo {
     name: "ggx",
     title: "GGX microfacets, Smith masking, conductor or dielectric",
-    formula: "kd/pi + F(h.wi) D(h) G2 / (4 ci co), D = 1/(pi ax ay (hx^2/ax^2 + hy^2/ay^2 + hz^2)^2)",
+    formula: "kd/pi + ks F(h.wi) D(h) G2 / (4 ci co), D = 1/(pi ax ay (hx^2/ax^2 + hy^2/ay^2 + hz^2)^2)",
     citation: "Walter2007",
     parameters: &[
         Parameter::roughness("alpha", "roughness", 0.1),
@@ -40,6 +42,7 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
         microfacet::F0,
         microfacet::N,
         microfacet::K,
+        Parameter::albedo("ks", "weight of the lobe", 1.0),
         Parameter::albedo("kd", "albedo of the Lambert lobe", 0.0),
     ],
     laws: Laws {
@@ -49,9 +52,9 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
     examples: &[
         "alpha=0.1,n=cu,k=cu",
         "alpha=0.5",
-        "alpha=1,f0=0.04,kd=0.5/0.3/0.1",
+        "alpha=1,f0=0.04,ks=0.5,kd=0.5/0.3/0.1",
         "alpha_x=0.3,alpha_y=0.1,f0=0.9/0.6/0.3",
-        "alpha=0.02,f0=0.05,kd=0.4",
+        "alpha=0.02,f0=0.05,ks=0.6,kd=0.4",
     ],
 };
 
@@ -60,6 +63,7 @@ pub(crate) fn build<const N: usize>(values: &Values) -> Built<N> {
         alpha_x: values.scalar("alpha_x"),
         alpha_y: values.scalar("alpha_y"),
         fresnel: microfacet::fresnel(values),
+        specular: values.channels("ks"),
         diffuse: values.channels("kd"),
     })
 }
@@ -72,6 +76,7 @@ impl<const N: usize> Ggx<N> {
             alpha_x: alpha,
             alpha_y: alpha,
             fresnel,
+            specular: [1.0; N],
             diffuse: [0.0; N],
         }
     }
@@ -100,7 +105,7 @@ impl<const N: usize> Brdf<N> for Ggx<N> {
         let lambda = self.stretched(wi) * wo.z + self.stretched(wo) * wi.z;
         let lobe = 0.5 * self.ndf(&half) / lambda;
         let f = self.fresnel.eval(half.cos_d());
-        std::array::from_fn(|c| self.diffuse[c] * FRAC_1_PI + f[c] * lobe)
+        std::array::from_fn(|c| self.diffuse[c] * FRAC_1_PI + self.specular[c] * f[c] * lobe)
     }
 
     fn symmetry(&self) -> Symmetry {
@@ -128,9 +133,9 @@ impl<const N: usize> Brdf<N> for Ggx<N> {
         }
         std::array::from_fn(|c| {
             let mut f = self.fresnel.eval_lanes(c, &cos_d);
-            let kd = self.diffuse[c] as f32;
+            let (kd, ks) = (self.diffuse[c] as f32, self.specular[c] as f32);
             for k in 0..LANES {
-                f[k] = kd * diffuse[k] + f[k] * lobe[k];
+                f[k] = kd * diffuse[k] + ks * f[k] * lobe[k];
             }
             f
         })
@@ -141,7 +146,9 @@ impl<const N: usize> SpecularLobe for Ggx<N> {
     #[inline]
     fn probability(&self, wo: DVec3) -> f64 {
         if self.has_diffuse() {
-            share(&self.fresnel.eval(wo.z.min(1.0)), &self.diffuse)
+            let f = self.fresnel.eval(wo.z.min(1.0));
+            let weight: [f64; N] = std::array::from_fn(|c| self.specular[c] * f[c]);
+            share(&weight, &self.diffuse)
         } else {
             1.0
         }
@@ -252,8 +259,9 @@ impl<const N: usize> Ggx<N> {
         let mut specular = [0.0_f32; LANES];
         for c in 0..N {
             let f = self.fresnel.eval_lanes(c, &cos);
+            let ks = self.specular[c] as f32;
             for k in 0..LANES {
-                specular[k] += f[k];
+                specular[k] += ks * f[k];
             }
         }
         let diffuse = self.diffuse.iter().sum::<f64>() as f32;
@@ -337,6 +345,7 @@ mod tests {
             alpha_x,
             alpha_y,
             fresnel: Fresnel::from_index(METALS[0].n, METALS[0].k),
+            specular: [1.0; 3],
             diffuse: [0.0; 3],
         }
     }

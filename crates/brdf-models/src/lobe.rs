@@ -30,7 +30,7 @@ pub(crate) fn cos_power(a: DVec3, b: DVec3, n: f64) -> f64 {
     if c <= 0.0 {
         return 0.0;
     }
-    (n * (-0.5 * (a - b).length_squared()).max(-1.0).ln_1p()).exp()
+    (n * (-0.5 * (a - b).length_squared()).max(-ONE_MINUS).ln_1p()).exp()
 }
 
 /// Direction about the unit vector `axis`, with density (n+1)/(2 pi) cos^n on the sphere around it.

@@ -38,7 +38,12 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
         conserves_energy: false,
         ..Laws::KEPT
     },
-    examples: &["kd=0.5/0.3/0.1,sigma=0.3", "kd=0.8,sigma=0", "kd=1,sigma=1"],
+    examples: &[
+        "kd=0.5/0.3/0.1,sigma=0.3",
+        "kd=0.8,sigma=0",
+        "kd=1,sigma=0.3",
+        "kd=1,sigma=1",
+    ],
 };
 
 pub(crate) fn build<const N: usize>(values: &Values) -> Built<N> {
@@ -89,8 +94,9 @@ impl<const N: usize> Brdf<N> for OrenNayar<N> {
             return [0.0; N];
         }
         let (direct, twice) = self.shape(wi, wo);
+        // the fitted terms of the paper dip below zero at grazing angles on very rough surfaces
         self.albedo
-            .map(|rho| rho * FRAC_1_PI * (direct + rho * twice))
+            .map(|rho| rho * FRAC_1_PI * (direct + rho * twice).max(0.0))
     }
 
     fn symmetry(&self) -> Symmetry {

@@ -11,6 +11,7 @@
 
 mod chart;
 mod cosine;
+mod hvt;
 mod inversion;
 mod known_grid;
 mod pseudo_log;
@@ -19,10 +20,13 @@ mod rejection_cache;
 mod slice_measure;
 mod target;
 mod uniform;
+mod variance;
 
 pub use cosine::Cosine;
+pub use hvt::{Hvt, HvtOptions, MAX_B, Preset};
 pub use inversion::{Inversion, InversionOptions};
 pub use rejection::{BoundAudit, Rejection, RejectionOptions, SharedTarget};
 pub use rejection_cache::{CacheError, Proposal, RejectionCache};
 pub use target::Target;
 pub use uniform::Uniform;
+pub use variance::{RelativeVariance, relative_variance};

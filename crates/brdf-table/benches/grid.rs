@@ -23,14 +23,21 @@ fn lobe(wi: DVec3, wo: DVec3, out: &mut [f64]) -> Status {
 
 fn table() -> Arc<HalfDiffTable> {
     let basis = Basis::Rgb(RgbSpace::srgb());
-    Arc::new(HalfDiffTable::from_fn(MERL, PhiDomain::Reciprocal, basis, lobe))
+    Arc::new(HalfDiffTable::from_fn(
+        MERL,
+        PhiDomain::Reciprocal,
+        basis,
+        lobe,
+    ))
 }
 
 /// Pairs of directions: independent ones, or slowly turning ones as neighbouring pixels see them.
 fn packets(coherent: bool) -> Vec<(Lanes3, Lanes3)> {
     let mut state = 0x9E37_79B9_7F4A_7C15_u64;
     let mut uniform = move || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         (state >> 40) as f64 / (1_u64 << 24) as f64
     };
     let mut made = Vec::with_capacity(PACKETS);

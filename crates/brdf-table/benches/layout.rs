@@ -16,7 +16,9 @@ type Cube = ([u32; 3], [f32; 3]);
 fn cubes() -> Vec<[Cube; LANES]> {
     let mut state = 0x9E37_79B9_7F4A_7C15_u64;
     let mut below = move |n: usize| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         let u = (state >> 40) as f32 / (1_u64 << 24) as f32 * (n - 1) as f32;
         (u as u32, u.fract())
     };
@@ -24,7 +26,9 @@ fn cubes() -> Vec<[Cube; LANES]> {
         let [h, d, p] = DIMS.map(&mut below);
         ([h.0, d.0, p.0], [h.1, d.1, p.1])
     };
-    (0..PACKETS).map(|_| std::array::from_fn(|_| cube())).collect()
+    (0..PACKETS)
+        .map(|_| std::array::from_fn(|_| cube()))
+        .collect()
 }
 
 /// Sums the eight corners; `read` gives the channels of the node at `[h, d, p]`.
@@ -58,7 +62,8 @@ fn linear(h: u32, d: u32, p: u32) -> usize {
 
 /// Bricks of 2 x 2 x 2 nodes.
 fn bricks(h: u32, d: u32, p: u32) -> usize {
-    let brick = ((h >> 1) as usize * DIMS[1].div_ceil(2) + (d >> 1) as usize) * DIMS[2].div_ceil(2) + (p >> 1) as usize;
+    let brick = ((h >> 1) as usize * DIMS[1].div_ceil(2) + (d >> 1) as usize) * DIMS[2].div_ceil(2)
+        + (p >> 1) as usize;
     brick * 8 + ((h & 1) << 2 | (d & 1) << 1 | p & 1) as usize
 }
 
@@ -83,21 +88,33 @@ fn layouts(c: &mut Criterion) {
             });
         });
     };
-    run("f32x3", &|q| gather(q, |h, d, p| interleaved[linear(h, d, p)]));
-    run("f32x4", &|q| gather(q, |h, d, p| {
-        let [r, g, b, _] = padded[linear(h, d, p)];
-        [r, g, b]
-    }));
-    run("planar", &|q| gather(q, |h, d, p| {
-        let k = linear(h, d, p);
-        [planes[0][k], planes[1][k], planes[2][k]]
-    }));
-    run("f16x3", &|q| gather(q, |h, d, p| halves[linear(h, d, p)].map(f16::to_f32)));
-    run("f16x4", &|q| gather(q, |h, d, p| {
-        let [r, g, b, _] = halves4[linear(h, d, p)];
-        [r, g, b].map(f16::to_f32)
-    }));
-    run("f32x3-bricks", &|q| gather(q, |h, d, p| f32_bricks[bricks(h, d, p)]));
+    run("f32x3", &|q| {
+        gather(q, |h, d, p| interleaved[linear(h, d, p)])
+    });
+    run("f32x4", &|q| {
+        gather(q, |h, d, p| {
+            let [r, g, b, _] = padded[linear(h, d, p)];
+            [r, g, b]
+        })
+    });
+    run("planar", &|q| {
+        gather(q, |h, d, p| {
+            let k = linear(h, d, p);
+            [planes[0][k], planes[1][k], planes[2][k]]
+        })
+    });
+    run("f16x3", &|q| {
+        gather(q, |h, d, p| halves[linear(h, d, p)].map(f16::to_f32))
+    });
+    run("f16x4", &|q| {
+        gather(q, |h, d, p| {
+            let [r, g, b, _] = halves4[linear(h, d, p)];
+            [r, g, b].map(f16::to_f32)
+        })
+    });
+    run("f32x3-bricks", &|q| {
+        gather(q, |h, d, p| f32_bricks[bricks(h, d, p)])
+    });
     group.finish();
 }
 

@@ -4,7 +4,7 @@ pub mod grid;
 pub mod rgl;
 
 pub use grid::{
-    CellPolicy, CellReport, GridError, Gridded, GriddedN, HalfDiffTable, Interpolation, PhiDomain,
-    TableBuilder, directional_albedo, mix,
+    CellPolicy, CellReport, GridError, Gridded, GriddedN, HalfDiffTable, Interpolation, MerlLoss,
+    PhiDomain, TableBuilder, directional_albedo, mix,
 };
-pub use rgl::{RglError, RglTable};
+pub use rgl::{RglN, RglTable};

@@ -70,7 +70,7 @@ impl Cache {
 
 /// One key from several: the order matters.
 #[must_use]
-pub fn combine(parts: &[u64]) -> u64 {
+pub(crate) fn combine(parts: &[u64]) -> u64 {
     let bytes: Vec<u8> = parts.iter().flat_map(|p| p.to_le_bytes()).collect();
     content_hash(&bytes)
 }

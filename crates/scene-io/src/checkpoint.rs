@@ -93,6 +93,8 @@ fn fill<const N: usize>(film: &mut Film<N>, payload: &[u8]) -> Result<(), Error>
     if rest.is_empty() {
         Ok(())
     } else {
-        Err(Error::invalid("expected the end of the checkpoint, found more bytes"))
+        Err(Error::invalid(
+            "expected the end of the checkpoint, found more bytes",
+        ))
     }
 }

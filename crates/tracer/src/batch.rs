@@ -7,6 +7,7 @@
 use crate::film::Tile;
 use crate::kernel::Kernel;
 use crate::light::LightLanes;
+use crate::math::splat3;
 use crate::path::{HitLanes, NONE, PathState, Paths, Shadows};
 use crate::stats::Stats;
 use crate::vertex::VertexLanes;
@@ -45,16 +46,20 @@ pub(crate) struct Workspace<const N: usize> {
     lights: Vec<LightLanes<N>>,
     evals: Vec<EvalPacket<N>>,
     samples: Vec<SamplePacket<N>>,
-    /// Light, pixel and sample of each slot.
+    /// Light collected in each slot.
     slots: Vec<[f32; N]>,
-    pixel: Vec<u32>,
-    sample: Vec<u32>,
+    /// Points of each slot: stream, and index in the stream.
+    stream: Vec<u32>,
+    index: Vec<u32>,
+    /// Upper left corner of each slot's pixel.
+    corner: [Vec<f32>; 2],
     pub(crate) stats: Stats,
 }
 
 impl<const N: usize> Workspace<N> {
     /// Room for `capacity` paths and `materials` materials.
     pub(crate) fn new(capacity: usize, materials: usize) -> Self {
+        let capacity = capacity.next_multiple_of(LANES);
         Self {
             paths: Paths::new(capacity),
             next: Paths::new(capacity),
@@ -68,8 +73,9 @@ impl<const N: usize> Workspace<N> {
             evals: vec![EvalPacket::ZERO; BLOCKS],
             samples: vec![SamplePacket::ZERO; BLOCKS],
             slots: vec![[0.0; N]; capacity],
-            pixel: vec![0; capacity],
-            sample: vec![0; capacity],
+            stream: vec![0; capacity],
+            index: vec![0; capacity],
+            corner: [vec![0.0; capacity], vec![0.0; capacity]],
             stats: Stats::default(),
         }
     }
@@ -127,26 +133,39 @@ impl<const N: usize> Workspace<N> {
 
     /// Camera rays, slot by slot: all pixels of the first sample, then of the next.
     fn start(&mut self, kernel: &Kernel<'_, N>, tile: &Tile<N>, samples: Samples) {
-        let replicates = kernel.points.len() as u32;
-        self.paths.len = 0;
+        let replicates = kernel.replicates;
+        let mut slot = 0;
         for sample in samples.first..samples.first + samples.count {
-            let points = &kernel.points[(sample % replicates) as usize];
             for (x, y) in tile.pixels() {
-                let slot = self.paths.len;
-                let pixel = y * kernel.width + x;
-                self.slots[slot] = [0.0; N];
-                self.pixel[slot] = pixel;
-                self.sample[slot] = sample;
-                let u = points.get2(pixel, sample / replicates, 0);
-                let (px, py) = kernel.filter.place(x as f32, y as f32, u);
-                self.paths.push(&PathState {
-                    o: kernel.camera.eye,
-                    d: kernel.camera.direction(px, py),
-                    from: NONE,
-                    slot: slot as u32,
-                    pdf: 0.0,
-                    throughput: [1.0; N],
-                });
+                (self.corner[0][slot], self.corner[1][slot]) = (x as f32, y as f32);
+                // wraps for pictures of 2^32 / replicates pixels and more, whose ends then share scrambles
+                self.stream[slot] = (y.wrapping_mul(kernel.width).wrapping_add(x))
+                    .wrapping_mul(replicates)
+                    .wrapping_add(sample % replicates);
+                self.index[slot] = sample / replicates;
+                slot += 1;
+            }
+        }
+        self.slots[..slot].fill([0.0; N]);
+        self.paths.len = slot;
+        for block in 0..self.paths.blocks() {
+            let lanes = block * LANES..(block + 1) * LANES;
+            let stream = lanes_of(&self.stream[lanes.clone()]);
+            let index = lanes_of(&self.index[lanes.clone()]);
+            let x = lanes_of(&self.corner[0][lanes.clone()]);
+            let y = lanes_of(&self.corner[1][lanes.clone()]);
+            let u = kernel.points.get2_lanes(stream, index, 0);
+            let (x, y) = kernel.filter.place(&x, &y, &u);
+            let rays = &mut self.paths.rays[block];
+            for k in 0..LANES {
+                rays.d.set(k, kernel.camera.direction(x[k], y[k]));
+            }
+            rays.o = splat3(kernel.camera.eye);
+            rays.t_max = [f32::INFINITY; LANES];
+            rays.from = [NONE; LANES];
+            self.paths.throughput[lanes.clone()].fill([1.0; N]);
+            for (slot, i) in self.paths.slot[lanes.clone()].iter_mut().zip(lanes) {
+                *slot = i as u32;
             }
         }
         self.paths.seal();
@@ -241,37 +260,25 @@ impl<const N: usize> Workspace<N> {
     }
 
     /// Gathers the vertices `order[range]` into blocks with random numbers and points on lights; how many blocks.
-    fn prepare(
-        &mut self,
-        kernel: &Kernel<'_, N>,
-        depth: u32,
-        range: std::ops::Range<usize>,
-    ) -> usize {
-        let which = &self.order[range];
-        let replicates = kernel.points.len() as u32;
+    fn prepare(&mut self, kernel: &Kernel<'_, N>, depth: u32, range: std::ops::Range<usize>) -> usize {
+        let dimension = Kernel::<N>::dimension;
         let mut blocks = 0;
-        for which in which.chunks(LANES) {
+        for which in self.order[range].chunks(LANES) {
             let vertex = &mut self.vertices[blocks];
             vertex.gather(&kernel.scene.geometry, &self.paths, &self.hits, which);
+            let stream = vertex.slot.map(|s| self.stream[s as usize]);
+            let index = vertex.slot.map(|s| self.index[s as usize]);
             let sampling = &mut self.samples[blocks];
             sampling.wo = vertex.wo;
-            let (mut choice, mut on_light) = ([0.0; LANES], [[0.0; LANES]; 2]);
-            for k in 0..LANES {
-                let slot = vertex.slot[k] as usize;
-                let (pixel, sample) = (self.pixel[slot], self.sample[slot]);
-                let points = &kernel.points[(sample % replicates) as usize];
-                let index = sample / replicates;
-                let u = points.get2(pixel, index, Kernel::<N>::dimension(depth, 0));
-                (sampling.u[0][k], sampling.u[1][k]) = (u[0], u[1]);
-                if kernel.ask_lights {
-                    let u = points.get2(pixel, index, Kernel::<N>::dimension(depth, 1));
-                    (on_light[0][k], on_light[1][k]) = (u[0], u[1]);
-                }
-                if kernel.lights.several() {
-                    choice[k] = points.get1(pixel, index, Kernel::<N>::dimension(depth, 2));
-                }
-            }
+            sampling.u = kernel.points.get2_lanes(stream, index, dimension(depth, 0));
             if kernel.ask_lights {
+                let on_light = kernel.points.get2_lanes(stream, index, dimension(depth, 1));
+                let choice = if kernel.lights.several() {
+                    let at = dimension(depth, 2);
+                    std::array::from_fn(|k| kernel.points.get1(stream[k], index[k], at))
+                } else {
+                    [0.0; LANES]
+                };
                 let light = &mut self.lights[blocks];
                 kernel.lights.sample(&vertex.o, &choice, &on_light, light);
                 let eval = &mut self.evals[blocks];
@@ -313,9 +320,9 @@ impl<const N: usize> Workspace<N> {
                     continue;
                 }
                 if depth + 1 >= kernel.roulette {
-                    let (pixel, sample) = (self.pixel[slot as usize], self.sample[slot as usize]);
+                    let (stream, index) = (self.stream[slot as usize], self.index[slot as usize]);
                     let survive = strength(&throughput).min(1.0);
-                    if kernel.chance(pixel, sample, depth) >= survive {
+                    if kernel.chance(stream, index, depth) >= survive {
                         continue;
                     }
                     throughput = throughput.map(|x| x / survive);
@@ -418,4 +425,10 @@ fn lasts<const N: usize>(values: &[f32; N]) -> bool {
         sum += v.abs();
     }
     sum > FAINT && sum < f32::INFINITY
+}
+
+/// A slice of [`LANES`] values as an array.
+#[inline(always)]
+fn lanes_of<T: Copy>(values: &[T]) -> [T; LANES] {
+    std::array::from_fn(|k| values[k])
 }

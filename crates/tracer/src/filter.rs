@@ -1,5 +1,7 @@
 //! Reconstruction filters, importance-sampled [Ernst2006]: every sample of a pixel counts alike.
 
+use crate::math::F;
+
 /// How the samples of a pixel are spread around its middle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -62,14 +64,17 @@ fn quantiles(sigma: f64, radius: f64) -> Vec<f32> {
 }
 
 impl Sampler {
-    /// Position in the picture of a sample of the pixel whose upper left corner is (x, y).
+    /// Positions in the picture of samples of pixels whose upper left corners are (x, y).
     #[inline(always)]
-    pub(crate) fn place(&self, x: f32, y: f32, u: [f32; 2]) -> (f32, f32) {
+    pub(crate) fn place(&self, x: &F, y: &F, u: &[F; 2]) -> (F, F) {
         match self {
-            Self::Box => (x + u[0], y + u[1]),
+            Self::Box => (
+                std::array::from_fn(|k| x[k] + u[0][k]),
+                std::array::from_fn(|k| y[k] + u[1][k]),
+            ),
             Self::Quantiles(table) => (
-                x + 0.5 + look_up(table, u[0]),
-                y + 0.5 + look_up(table, u[1]),
+                std::array::from_fn(|k| x[k] + 0.5 + look_up(table, u[0][k])),
+                std::array::from_fn(|k| y[k] + 0.5 + look_up(table, u[1][k])),
             ),
         }
     }
@@ -85,6 +90,7 @@ fn look_up(table: &[f32], u: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use brdf::LANES;
 
     #[test]
     fn gaussian_has_its_deviation_and_ends() {
@@ -96,8 +102,9 @@ mod tests {
         let n = 10_000;
         let (mut mean, mut square, mut most) = (0.0, 0.0, 0.0_f64);
         for i in 0..n {
-            let (x, _) = sampler.place(0.0, 0.0, [(i as f32 + 0.5) / n as f32, 0.5]);
-            let x = f64::from(x) - 0.5;
+            let u = [[(i as f32 + 0.5) / n as f32; LANES], [0.5; LANES]];
+            let (x, _) = sampler.place(&[0.0; LANES], &[0.0; LANES], &u);
+            let x = f64::from(x[0]) - 0.5;
             mean += x / f64::from(n);
             square += x * x / f64::from(n);
             most = most.max(x.abs());

@@ -19,8 +19,9 @@ pub(crate) struct Kernel<'a, const N: usize> {
     pub(crate) lights: &'a Lights<N>,
     pub(crate) camera: Rays,
     pub(crate) width: u32,
-    /// Points of each replicate.
-    pub(crate) points: Vec<Points>,
+    /// Asked with a stream number, not a pixel: each replicate of a pixel is a stream, scrambled for itself.
+    pub(crate) points: Points,
+    pub(crate) replicates: u32,
     pub(crate) filter: Sampler,
     pub(crate) max_depth: u32,
     pub(crate) roulette: u32,
@@ -44,15 +45,13 @@ impl<'a, const N: usize> Kernel<'a, N> {
             Strategy::LightOnly => &scene.all_lights,
             Strategy::Mis | Strategy::BsdfOnly => &scene.lights,
         };
-        let seed = |r: u32| mix(settings.seed ^ mix(u64::from(r) + 1));
         Self {
             scene,
             lights,
             camera: scene.camera.rays(size[0], size[1]),
             width: size[0],
-            points: (0..replicates)
-                .map(|r| Points::new(settings.points, seed(r)))
-                .collect(),
+            points: Points::new(settings.points, settings.seed),
+            replicates,
             filter: settings.filter.sampler(),
             max_depth: settings.max_depth,
             roulette: settings.roulette.unwrap_or(u32::MAX),
@@ -71,8 +70,8 @@ impl<'a, const N: usize> Kernel<'a, N> {
 
     /// A number in [0, 1) for the roulette, apart from the points that must stay even.
     #[inline]
-    pub(crate) fn chance(&self, pixel: u32, sample: u32, depth: u32) -> f32 {
-        let key = (u64::from(pixel) << 32 | u64::from(sample)) ^ mix(self.seed ^ u64::from(depth));
+    pub(crate) fn chance(&self, stream: u32, index: u32, depth: u32) -> f32 {
+        let key = ((u64::from(stream) << 32) | u64::from(index)) ^ mix(self.seed ^ u64::from(depth));
         (mix(key) >> 40) as f32 * (1.0 / 16_777_216.0)
     }
 }

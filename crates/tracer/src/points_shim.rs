@@ -75,4 +75,11 @@ impl Points {
     pub fn get1(&self, pixel: u32, index: u32, dim: u32) -> f32 {
         self.get2(pixel, index, dim)[0]
     }
+    #[inline(always)]
+    #[must_use]
+    pub fn get2_lanes(&self, pixel: [u32; 16], index: [u32; 16], dim: u32) -> [[f32; 16]; 2] {
+        let mut out = [[0.0; 16]; 2];
+        for k in 0..16 { [out[0][k], out[1][k]] = self.get2(pixel[k], index[k], dim); }
+        out
+    }
 }

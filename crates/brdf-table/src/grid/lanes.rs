@@ -96,9 +96,17 @@ impl LaneLayout {
             let theta_d = atan2_upper((dx * dx + dy * dy + dz * dz).sqrt(), h_len);
             let y = dy * hx - dx * hy;
             let x = -dz * h_len;
-            let x = if phi == PhiDomain::Reciprocal && y < 0.0 { -x } else { x };
+            let x = if phi == PhiDomain::Reciprocal && y < 0.0 {
+                -x
+            } else {
+                x
+            };
             let half_turn = atan2_upper(y.abs(), x);
-            let phi_d = if phi == PhiDomain::Full && y < 0.0 { full - half_turn } else { half_turn };
+            let phi_d = if phi == PhiDomain::Full && y < 0.0 {
+                full - half_turn
+            } else {
+                half_turn
+            };
             at.u2[k] = self.scale[0] * theta_h;
             at.v[k] = self.scale[1] * theta_d;
             at.p[k] = self.scale[2] * phi_d;

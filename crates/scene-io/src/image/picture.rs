@@ -1,6 +1,7 @@
 //! A picture in memory, as it is written to and read from EXR.
 
 use crate::error::Error;
+use tracer::Film;
 
 /// Scene-linear RGB, row by row from the top left, and what is known about it.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +47,29 @@ impl Picture {
             pixels,
             variance: None,
             metadata: Metadata::default(),
+        };
+        picture.check()?;
+        Ok(picture)
+    }
+
+    /// The picture on a film, with the variance of its mean if the film has at least two replicates.
+    ///
+    /// # Errors
+    /// If the film is larger than any picture may be.
+    pub fn of_film(film: &Film<3>) -> Result<Self, Error> {
+        let estimate = film.estimate(0.95);
+        let narrow = |plane: Vec<[f64; 3]>| -> Vec<[f32; 3]> {
+            plane.into_iter().map(|p| p.map(|c| c as f32)).collect()
+        };
+        let picture = Self {
+            width: film.width() as usize,
+            height: film.height() as usize,
+            pixels: narrow(estimate.mean),
+            variance: (film.replicates() > 1).then(|| narrow(estimate.variance)),
+            metadata: Metadata {
+                spp: Some(u64::from(film.spp())),
+                ..Metadata::default()
+            },
         };
         picture.check()?;
         Ok(picture)

@@ -102,6 +102,14 @@ impl SceneFile {
         Self::from_doc(doc, path).map_err(|e| e.in_file(path))
     }
 
+    /// Checks what no single field shows, as loading does; for scenes that were changed since.
+    ///
+    /// # Errors
+    /// Says which field contradicts which.
+    pub fn check(&self) -> Result<(), Error> {
+        check::scene(self)
+    }
+
     fn from_doc(doc: SceneDoc, path: &Path) -> Result<Self, Error> {
         let scene = Self {
             path: path.to_owned(),
