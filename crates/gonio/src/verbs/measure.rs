@@ -1,0 +1,1 @@
+//! `gonio measure MODEL -o OUT`: a virtual gonioreflectometer.
