@@ -196,7 +196,7 @@ mod tests {
             for k in 0..=200 {
                 let u = f64::from(k) / 200.0;
                 let phi = visible_azimuth(t, u);
-                let phi_0 = if t > 1.0 { (1.0f64 / t).acos() } else { 0.0 };
+                let phi_0 = if t > 1.0 { (1.0_f64 / t).acos() } else { 0.0 };
                 let cdf = if phi < phi_0 {
                     2.0 * phi
                 } else if t > 1.0 {

@@ -165,7 +165,7 @@ mod tests {
     fn normal_incidence_and_grazing() {
         let f = Fresnel::from_index([1.5, 0.2, 2.0], [0.0, 3.9, 1.0]);
         let normal = f.eval(1.0);
-        for (c, (n, k)) in [(1.5f64, 0.0f64), (0.2, 3.9), (2.0, 1.0)]
+        for (c, (n, k)) in [(1.5_f64, 0.0_f64), (0.2, 3.9), (2.0, 1.0)]
             .into_iter()
             .enumerate()
         {
@@ -186,7 +186,7 @@ mod tests {
     #[test]
     fn brewster_and_total_reflection() {
         // at Brewster's angle tan t = n only s light returns: R = ((n^2-1)/(n^2+1))^2 / 2
-        let n = 1.5f64;
+        let n = 1.5_f64;
         let r = Fresnel::from_index([n], [0.0]).eval(1.0 / n.hypot(1.0))[0];
         let expected = 0.5 * ((n * n - 1.0) / (n * n + 1.0)).powi(2);
         assert!((r - expected).abs() < 1e-15, "{r} {expected}");

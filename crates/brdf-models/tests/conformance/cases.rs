@@ -22,7 +22,7 @@ pub(crate) fn all() -> impl Iterator<Item = ParsedModel<3>> {
 pub(crate) fn examples(info: &'static ModelInfo) -> impl Iterator<Item = ParsedModel<3>> {
     info.examples
         .iter()
-        .map(|text| parse_model(&format!("{}:{text}", info.name)).unwrap())
+        .map(|text| parse_model(&format!("{}:{text}", info.name)).expect("examples are valid"))
 }
 
 /// The next two random numbers.

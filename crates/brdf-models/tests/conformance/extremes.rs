@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 /// The model with one parameter at the given value, the rest at default.
 fn with(info: &ModelInfo, name: &str, value: f64) -> ParsedModel<3> {
-    parse_model(&format!("{}:{name}={value}", info.name)).unwrap()
+    parse_model(&format!("{}:{name}={value}", info.name)).expect("the ends of a range are valid")
 }
 
 /// Directions at the pole, ordinary ones, and down to 1e-7 and 1e-12 rad above the horizon.
