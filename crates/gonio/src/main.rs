@@ -4,6 +4,7 @@
 
 mod args;
 mod curves;
+mod load;
 mod verbs;
 
 use args::{Cli, Verb};

@@ -107,8 +107,8 @@ fn content(loaded: &LoadedMeasured) -> Result<Content> {
             (dims, negatives, f.comments().map(|c| ("comment".to_owned(), c)).collect())
         }
         File::Rgl(f) => {
-            let fields = f.tensor().fields();
-            (fields.0, fields.1, vec![("description".into(), f.description())])
+            let view = f.view()?;
+            (view.values.shape.clone(), vec![view.values.data.iter().filter(|v| **v < 0.0).count()], vec![("description".into(), view.description)])
         }
         _ => (Vec::new(), Vec::new(), Vec::new()),
     };
