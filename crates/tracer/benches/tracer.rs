@@ -1,5 +1,12 @@
 //! Paths a second on the benchmark scene, rays a second on a mesh.
 
+#![expect(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a bench reports to whoever runs it"
+)]
+#![expect(missing_docs, reason = "criterion's macro makes a public function")]
+
 use brdf::{Brdf, DirectionSample, DirectionSampler, LANES, Lanes3, Paired, SampleLanes};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use glam::{DAffine3, DVec2, DVec3, Vec3};

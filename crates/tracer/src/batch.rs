@@ -31,6 +31,25 @@ pub(crate) struct Samples {
     pub(crate) count: u32,
 }
 
+/// A batch to be compiled for each instruction set and run with the widest there is.
+///
+/// Everything down to the materials' virtual calls is inlined into it; results are the same bits, since no step is fused.
+pub(crate) struct Batch<'a, 'k, const N: usize> {
+    pub(crate) workspace: &'a mut Workspace<N>,
+    pub(crate) kernel: &'a Kernel<'k, N>,
+    pub(crate) tile: &'a mut Tile<N>,
+    pub(crate) samples: Samples,
+}
+
+impl<const N: usize> pulp::WithSimd for Batch<'_, '_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        self.workspace.run(self.kernel, self.tile, self.samples);
+    }
+}
+
 /// Buffers of one worker, reused for all its batches.
 #[derive(Debug)]
 pub(crate) struct Workspace<const N: usize> {
@@ -81,7 +100,8 @@ impl<const N: usize> Workspace<N> {
     }
 
     /// Traces the samples of every pixel of `tile` and adds them to it.
-    pub(crate) fn run(&mut self, kernel: &Kernel<'_, N>, tile: &mut Tile<N>, samples: Samples) {
+    #[inline(always)]
+    fn run(&mut self, kernel: &Kernel<'_, N>, tile: &mut Tile<N>, samples: Samples) {
         let mut clock = Instant::now();
         let mut lap = || {
             let now = Instant::now();
@@ -132,6 +152,7 @@ impl<const N: usize> Workspace<N> {
     }
 
     /// Camera rays, slot by slot: all pixels of the first sample, then of the next.
+    #[inline(always)]
     fn start(&mut self, kernel: &Kernel<'_, N>, tile: &Tile<N>, samples: Samples) {
         let replicates = kernel.replicates;
         let mut slot = 0;
@@ -173,6 +194,7 @@ impl<const N: usize> Workspace<N> {
     }
 
     /// Adds the light that rays met, and sorts the paths that go on by material (counting sort).
+    #[inline(always)]
     fn meet(&mut self, kernel: &Kernel<'_, N>, depth: u32) {
         let scene = kernel.scene;
         let materials = scene.materials.len() as u32;
@@ -191,10 +213,10 @@ impl<const N: usize> Workspace<N> {
                 if go_on {
                     bucket = surface.material;
                 }
-                if surface.one_sided && self.from_behind(kernel, i) {
+                if surface.one_sided && self.behind(kernel, i) {
                     bucket = materials;
                 }
-                if surface.light != NONE && count && !self.from_behind(kernel, i) {
+                if surface.light != NONE && count && !self.behind(kernel, i) {
                     self.meet_light(kernel, depth, i, surface.light);
                 }
             }
@@ -215,7 +237,7 @@ impl<const N: usize> Workspace<N> {
     }
 
     /// Whether path `i` met the back of its primitive.
-    fn from_behind(&self, kernel: &Kernel<'_, N>, i: usize) -> bool {
+    fn behind(&self, kernel: &Kernel<'_, N>, i: usize) -> bool {
         let (rays, hits, k) = (
             &self.paths.rays[i / LANES],
             &self.hits[i / LANES],
@@ -227,6 +249,7 @@ impl<const N: usize> Workspace<N> {
     }
 
     /// Adds light number `light`, which path `i` met.
+    #[inline(always)]
     fn meet_light(&mut self, kernel: &Kernel<'_, N>, depth: u32, i: usize, light: u32) {
         let (rays, hits, k) = (
             &self.paths.rays[i / LANES],
@@ -260,7 +283,13 @@ impl<const N: usize> Workspace<N> {
     }
 
     /// Gathers the vertices `order[range]` into blocks with random numbers and points on lights; how many blocks.
-    fn prepare(&mut self, kernel: &Kernel<'_, N>, depth: u32, range: std::ops::Range<usize>) -> usize {
+    #[inline(always)]
+    fn prepare(
+        &mut self,
+        kernel: &Kernel<'_, N>,
+        depth: u32,
+        range: std::ops::Range<usize>,
+    ) -> usize {
         let dimension = Kernel::<N>::dimension;
         let mut blocks = 0;
         for which in self.order[range].chunks(LANES) {
@@ -302,6 +331,7 @@ impl<const N: usize> Workspace<N> {
     }
 
     /// Makes shadow rays and new rays of what the material said.
+    #[inline(always)]
     fn advance(&mut self, kernel: &Kernel<'_, N>, depth: u32, blocks: usize) {
         for block in 0..blocks {
             if kernel.ask_lights {
@@ -377,6 +407,7 @@ impl<const N: usize> Workspace<N> {
     }
 
     /// Adds what shadow rays carry where the way is free.
+    #[inline(always)]
     fn trace_shadows(&mut self, kernel: &Kernel<'_, N>) {
         self.shadows.seal();
         let shadows = &self.shadows;
@@ -398,6 +429,7 @@ impl<const N: usize> Workspace<N> {
     }
 
     /// Adds the slots to the tile, in their order.
+    #[inline(always)]
     fn finish(&self, tile: &mut Tile<N>, samples: Samples) {
         let pixels = tile.pixels().len();
         for (i, sample) in (samples.first..samples.first + samples.count).enumerate() {

@@ -240,7 +240,7 @@ impl<const N: usize> Builder<N> {
             let triangle = Triangle {
                 corners: order.map(|i| positions[i]),
             };
-            if !(triangle.cross().length() > 0.0) {
+            if triangle.area() <= 0.0 {
                 self.left_out += 1;
                 continue;
             }
@@ -254,7 +254,7 @@ impl<const N: usize> Builder<N> {
                 let turned = order.map(|i| (cofactors * normals[i].as_dvec3() * sign).as_vec3());
                 self.geometry
                     .normals
-                    .extend(turned.map(|n| n.normalize_or(triangle.cross().normalize_or(Vec3::Z))));
+                    .extend(turned.map(|n| n.normalize_or(triangle.normal())));
             }
             self.loose.push(Loose { triangle, info });
         }
@@ -293,8 +293,6 @@ impl<const N: usize> Builder<N> {
 
     /// Orders the primitives, builds the tree, tells lights which primitives they are.
     fn close_geometry(&mut self, objects: &[Object<N>]) {
-        self.geometry
-            .bound_errors(self.quad_corners.iter().copied());
         self.geometry.objects = [&self.sphere_objects[..], &self.quad_objects[..]].concat();
         for (prim, &object) in self.geometry.objects.iter().enumerate() {
             let light = self.surfaces[object as usize].light;
@@ -350,7 +348,7 @@ impl<const N: usize> Builder<N> {
                     irradiance,
                 } => {
                     let toward = -direction.normalize_or_zero();
-                    if !(toward.length() > 0.5) {
+                    if toward == DVec3::ZERO {
                         return Err(wrong("direction must be finite and not zero"));
                     }
                     let radius = self.radius();

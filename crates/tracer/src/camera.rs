@@ -31,18 +31,17 @@ impl Camera {
     pub(crate) fn check(&self) -> Result<(), &'static str> {
         let forward = self.target - self.eye;
         let finite = self.eye.is_finite() && self.target.is_finite() && self.up.is_finite();
+        let across = forward
+            .normalize_or_zero()
+            .cross(self.up.normalize_or_zero());
+        let fov = self.vertical_fov_deg > 0.0 && self.vertical_fov_deg < 180.0;
         if !finite {
             Err("eye, target and up must be finite")
-        } else if !(forward.length() > 0.0) {
+        } else if forward == DVec3::ZERO {
             Err("eye and target must differ")
-        } else if !(forward
-            .normalize()
-            .cross(self.up.normalize_or_zero())
-            .length()
-            > 1e-9)
-        {
+        } else if across.length() < 1e-9 {
             Err("up must not lie along the line of sight")
-        } else if !(self.vertical_fov_deg > 0.0 && self.vertical_fov_deg < 180.0) {
+        } else if !fov {
             Err("vertical field of view must lie in (0, 180) degrees")
         } else {
             Ok(())

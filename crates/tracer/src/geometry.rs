@@ -3,13 +3,13 @@
 use crate::bvh::Bvh;
 use crate::math::U;
 use crate::path::{HitLanes, NONE, RayLanes};
-use crate::shape::{Quad, Sphere, Triangle};
+use crate::shape::{Quad, Sphere};
 use brdf::LANES;
 use glam::Vec3;
 
-/// Multiple of the unit roundoff by which a hit point may lie off its surface, relative to the largest coordinate
-/// that entered it; it covers re-projection, barycentric sums and the addition of the centre [Pharr2023].
-const SURFACE_ERROR: f32 = 8.0 * f32::EPSILON;
+/// By how much a hit point may lie off its surface, relative to the coordinates that entered it, weighed by the normal:
+/// eight roundings cover re-projection, barycentric sums and the addition of the centre [Pharr2023].
+const SURFACE_ERROR: f32 = 4.0 * f32::EPSILON;
 
 /// Where and on what a ray ended.
 #[derive(Clone, Copy, Debug)]
@@ -43,8 +43,6 @@ pub(crate) struct Geometry {
     /// Per triangle, in leaf order.
     pub(crate) triangles: Vec<TriangleInfo>,
     pub(crate) normals: Vec<Vec3>,
-    /// Error bound of a point on a sphere, then on a quad.
-    pub(crate) errors: Vec<f32>,
 }
 
 impl Geometry {
@@ -58,16 +56,6 @@ impl Geometry {
     #[inline]
     pub(crate) fn first_triangle(&self) -> u32 {
         (self.spheres.len() + self.quads.len()) as u32
-    }
-
-    /// Computes the error bounds of the analytic shapes, once they are all there.
-    pub(crate) fn bound_errors(&mut self, corners: impl Iterator<Item = [Vec3; 4]>) {
-        let spheres = self
-            .spheres
-            .iter()
-            .map(|s| SURFACE_ERROR * (s.center.abs().max_element() + s.radius));
-        let quads = corners.map(|c| SURFACE_ERROR * largest(&c));
-        self.errors = spheres.chain(quads).collect();
     }
 
     /// Object that primitive `prim` belongs to.
@@ -146,15 +134,16 @@ impl Geometry {
                 p: s.center + normal * s.radius,
                 normal,
                 shading: normal,
-                error: self.errors[prim as usize],
+                error: SURFACE_ERROR * (normal.abs().dot(s.center.abs()) + s.radius),
             }
         } else if let Some(q) = self.quads.get((prim - first_quad) as usize) {
             let p = o + d * t;
+            let p = p - q.normal * q.normal.dot(p - q.corner);
             Point {
-                p: p - q.normal * q.normal.dot(p - q.corner),
+                p,
                 normal: q.normal,
                 shading: q.normal,
-                error: self.errors[prim as usize],
+                error: SURFACE_ERROR * q.normal.abs().dot(p.abs() + q.corner.abs()),
             }
         } else {
             self.triangle_point(prim - self.first_triangle(), o, d)
@@ -172,30 +161,20 @@ impl Geometry {
                 error: 0.0,
             };
         };
-        let triangle: &Triangle = bvh.triangle(index);
-        let w = triangle.barycentric(o, d);
-        let [a, b, c] = triangle.corners;
-        let normal = triangle.cross().normalize_or(Vec3::Z);
+        let at = bvh.point(index, o, d);
         let info = self.triangles[index as usize];
         let shading = if info.normals == NONE {
-            normal
+            at.normal
         } else {
             let n = &self.normals[info.normals as usize..][..3];
-            (n[0] * w[0] + n[1] * w[1] + n[2] * w[2]).normalize_or(normal)
+            let w = at.weights;
+            (n[0] * w[0] + n[1] * w[1] + n[2] * w[2]).normalize_or(at.normal)
         };
         Point {
-            p: a * w[0] + b * w[1] + c * w[2],
-            normal,
+            p: at.p,
+            normal: at.normal,
             shading,
-            error: SURFACE_ERROR * largest(&triangle.corners),
+            error: SURFACE_ERROR * at.normal.abs().dot(at.extent),
         }
     }
-}
-
-/// The largest coordinate, by magnitude.
-fn largest(points: &[Vec3]) -> f32 {
-    points
-        .iter()
-        .map(|p| p.abs().max_element())
-        .fold(0.0, f32::max)
 }

@@ -4,9 +4,9 @@ use crate::camera::Rays;
 use crate::filter::Sampler;
 use crate::light::Lights;
 use crate::math::mix;
-use crate::points_shim::Points;
 use crate::scene::Scene;
 use crate::settings::{Settings, Strategy};
+use sampling::Points;
 
 /// Dimension pairs a vertex uses: material, point on the light, choice of the light.
 const PER_VERTEX: u32 = 3;
@@ -26,6 +26,8 @@ pub(crate) struct Kernel<'a, const N: usize> {
     pub(crate) max_depth: u32,
     pub(crate) roulette: u32,
     seed: u64,
+    /// The instruction set of this machine.
+    pub(crate) arch: pulp::Arch,
     /// Whether vertices ask lights.
     pub(crate) ask_lights: bool,
     /// Whether light that a path meets after its first vertex counts.
@@ -56,6 +58,7 @@ impl<'a, const N: usize> Kernel<'a, N> {
             max_depth: settings.max_depth,
             roulette: settings.roulette.unwrap_or(u32::MAX),
             seed: mix(settings.seed),
+            arch: pulp::Arch::new(),
             ask_lights: settings.strategy != Strategy::BsdfOnly && lights.any(),
             count_met: settings.strategy != Strategy::LightOnly,
             weigh: settings.strategy == Strategy::Mis,
@@ -71,7 +74,8 @@ impl<'a, const N: usize> Kernel<'a, N> {
     /// A number in [0, 1) for the roulette, apart from the points that must stay even.
     #[inline]
     pub(crate) fn chance(&self, stream: u32, index: u32, depth: u32) -> f32 {
-        let key = ((u64::from(stream) << 32) | u64::from(index)) ^ mix(self.seed ^ u64::from(depth));
+        let key =
+            ((u64::from(stream) << 32) | u64::from(index)) ^ mix(self.seed ^ u64::from(depth));
         (mix(key) >> 40) as f32 * (1.0 / 16_777_216.0)
     }
 }

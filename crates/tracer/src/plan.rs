@@ -1,8 +1,8 @@
 //! What a render leaves out because its scene does not need it.
 
+use crate::filter::PixelFilter;
 use crate::scene::Scene;
 use crate::settings::{Settings, Strategy};
-use crate::filter::PixelFilter;
 use std::fmt;
 
 /// Work that is not done.
@@ -57,6 +57,9 @@ impl<const N: usize> Scene<N> {
             (LeftOut::Roulette, settings.roulette.is_none()),
             (LeftOut::Filter, settings.filter == PixelFilter::Box),
         ];
-        all.iter().filter(|(_, out)| *out).map(|(what, _)| *what).collect()
+        all.iter()
+            .filter(|(_, out)| *out)
+            .map(|(what, _)| *what)
+            .collect()
     }
 }

@@ -1,6 +1,6 @@
 //! Passes over the picture, tile by tile.
 
-use crate::batch::{Samples, Workspace};
+use crate::batch::{Batch, Samples, Workspace};
 use crate::film::{Film, TILE, Tile};
 use crate::kernel::Kernel;
 use crate::scene::Scene;
@@ -131,7 +131,12 @@ fn run_tile<const N: usize>(
             first: tile.done,
             count: SAMPLES.min(aim - tile.done),
         };
-        workspace.run(kernel, tile, samples);
+        kernel.arch.dispatch(Batch {
+            workspace: &mut workspace,
+            kernel,
+            tile,
+            samples,
+        });
     }
     progress.tile_done(workspace.stats.paths - before);
     if let Ok(mut pool) = pool.lock() {

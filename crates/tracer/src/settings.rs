@@ -1,7 +1,7 @@
 //! What a caller may choose about a render.
 
 use crate::filter::PixelFilter;
-use crate::points_shim::PointSet;
+use sampling::PointSet;
 use std::num::NonZeroUsize;
 
 /// How light is found at a vertex.

@@ -6,9 +6,6 @@ use crate::path::{HitLanes, Paths};
 use brdf::{LANES, Lanes3};
 use glam::Vec3;
 
-/// How far a ray starts from its surface, in error bounds of the hit point.
-const LIFT: f32 = 2.0;
-
 /// Where and with what [`LANES`] paths scatter.
 #[derive(Clone, Debug)]
 pub(crate) struct VertexLanes<const N: usize> {
@@ -68,7 +65,7 @@ impl<const N: usize> VertexLanes<N> {
             let n = at.shading * side;
             // a shading normal that looks away from the viewer can't serve
             let n = if n.dot(d) < 0.0 { n } else { g };
-            self.o.set(k, at.p + g * (LIFT * at.error));
+            self.o.set(k, at.p + g * at.error);
             self.g.set(k, g);
             self.n.set(k, n);
             self.wo.set(k, -d);

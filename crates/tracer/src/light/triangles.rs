@@ -8,6 +8,8 @@ use glam::Vec3;
 #[derive(Clone, Debug)]
 pub(crate) struct TriangleLight {
     triangles: Vec<Triangle>,
+    /// Unit front normals.
+    normals: Vec<Vec3>,
     /// Primitive each triangle belongs to.
     prims: Vec<u32>,
     /// Areas up to and with each triangle, over the total.
@@ -22,11 +24,12 @@ impl TriangleLight {
         let sums: Vec<f64> = triangles
             .iter()
             .map(|t| {
-                sum += f64::from(t.cross().length()) * 0.5;
+                sum += t.area();
                 sum
             })
             .collect();
         (sum > 0.0).then(|| Self {
+            normals: triangles.iter().map(Triangle::normal).collect(),
             triangles,
             prims,
             cdf: sums.iter().map(|s| (s / sum) as f32).collect(),
@@ -61,11 +64,10 @@ impl TriangleLight {
         let d2 = to.length_squared();
         let distance = d2.sqrt();
         let wi = to / distance;
-        let normal = self.triangles[i].cross().normalize_or_zero();
         let toward = Toward {
             wi,
             distance,
-            pdf: self.pdf(normal, wi, distance),
+            pdf: self.pdf(self.normals[i], wi, distance),
         };
         (toward, self.prims[i])
     }

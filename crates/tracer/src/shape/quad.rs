@@ -30,7 +30,7 @@ impl Quad {
         let (px, py, pz) = (rx + t * dx, ry + t * dy, rz + t * dz);
         let u = du.x * px + du.y * py + du.z * pz;
         let v = dv.x * px + dv.y * py + dv.z * pz;
-        let inside = (u >= 0.0) & (u <= 1.0) & (v >= 0.0) & (v <= 1.0);
+        let inside = (u.min(v) >= 0.0) & (u.max(v) <= 1.0);
         // comparisons with a NaN t (ray in the plane) are false
         if inside & (t > 0.0) & (rays.from[k] >> 1 != id) {
             t

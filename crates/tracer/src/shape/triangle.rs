@@ -1,6 +1,6 @@
 //! The triangle: a test by edge volumes that is watertight, since two triangles compute a shared edge alike.
 
-use glam::{Vec3, Vec3A};
+use glam::{DVec3, Vec3, Vec3A};
 
 /// A triangle in world space.
 #[derive(Clone, Copy, Debug)]
@@ -54,5 +54,21 @@ impl Triangle {
     pub(crate) fn cross(&self) -> Vec3 {
         let [a, b, c] = self.corners;
         (b - a).cross(c - a)
+    }
+
+    /// Cross product of the edges in double precision, where no scene underflows.
+    fn exact_cross(&self) -> DVec3 {
+        let [a, b, c] = self.corners.map(|c| c.as_dvec3());
+        (b - a).cross(c - a)
+    }
+
+    /// The area.
+    pub(crate) fn area(&self) -> f64 {
+        0.5 * self.exact_cross().length()
+    }
+
+    /// The unit normal of the front.
+    pub(crate) fn normal(&self) -> Vec3 {
+        self.exact_cross().normalize_or(DVec3::Z).as_vec3()
     }
 }
