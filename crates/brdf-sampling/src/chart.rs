@@ -16,7 +16,6 @@
 
 use crate::pseudo_log::{pseudo_exp, pseudo_log};
 use glam::{DVec2, DVec3};
-use std::f64::consts::FRAC_1_SQRT_2;
 
 /// Keeps wi a hair above the horizon where rounding would drop it below.
 const MIN_COS: f64 = 1e-12;
@@ -27,6 +26,7 @@ pub(crate) struct Chart {
     sin_o: f64,
     cos_o: f64,
     r0: f64,
+    inv_r0: f64,
     /// L(y_max): a times this is L(y).
     span: f64,
 }
@@ -42,18 +42,22 @@ pub(crate) struct ChartPoint {
     pub(crate) jacobian: f64,
 }
 
+// Square roots and divisions are most of the cost of both directions, so squares of sines are carried as long
+// as possible: cos^2(phi/4) = (1 + cos(phi/2)) / 2 and sin^2(phi/4) = sin^2(phi/2) / (2 (1 + cos(phi/2))).
 impl Chart {
     /// The chart of a viewer at sin/cos `sin_o`, `cos_o` > 0, with radial scale `r0` > 0, radians.
     #[inline]
     pub(crate) fn new(sin_o: f64, cos_o: f64, r0: f64) -> Self {
-        // cos of the largest theta_h is sqrt((1 - si)/2); 1 - si = ci^2 / (1 + si)
-        let c_min = cos_o / (2.0 + 2.0 * sin_o).sqrt();
+        // cosine of the largest theta_h
+        let c_min = (0.5 - 0.5 * sin_o).max(0.0).sqrt();
         let r2 = 2.0 - 2.0 * c_min;
-        let y_max = (r2.sqrt() + (r2 + r0 * r0).sqrt()) / r0;
+        let inv_r0 = 1.0 / r0;
+        let y_max = (r2.sqrt() + (r2 + r0 * r0).sqrt()) * inv_r0;
         Self {
             sin_o,
             cos_o,
             r0,
+            inv_r0,
             span: pseudo_log(y_max).0,
         }
     }
@@ -62,12 +66,15 @@ impl Chart {
     #[inline]
     pub(crate) fn forward(&self, ab: DVec2) -> ChartPoint {
         let (y, y_slope) = pseudo_exp(ab.x * self.span);
+        let inv_y = 1.0 / y;
         // (y - 1/y) / 2 without cancellation at y = 1
-        let r = 0.5 * self.r0 * (y - 1.0) * (y + 1.0) / y;
-        let root = 0.5 * self.r0 * (y + 1.0 / y);
+        let r = 0.5 * self.r0 * (y - 1.0) * (y + 1.0) * inv_y;
+        let root = 0.5 * self.r0 * (y + inv_y);
         let c = 1.0 - 0.5 * r * r;
         let s = r * (1.0 - 0.25 * r * r).max(0.0).sqrt();
-        let t_max = self.t_max(s, c);
+        let half_max = self.half_max(s, c);
+        let cos_half_max = (1.0 - half_max).sqrt();
+        let t_max = (0.5 * half_max / (1.0 + cos_half_max)).sqrt();
         let t = (2.0 * ab.y - 1.0) * t_max;
         let cos_quarter = (1.0 - t * t).sqrt();
         let sin_half = 2.0 * t * cos_quarter;
@@ -79,81 +86,67 @@ impl Chart {
             2.0 * wo_h * s * sin_phi,
             (2.0 * wo_h * c - self.cos_o).max(MIN_COS),
         );
-        let jacobian = self.jacobian(wo_h * r, root / y_slope, cos_quarter, t_max);
-        ChartPoint { wi, ab, jacobian }
+        let jacobian = 32.0 * wo_h * r * root * self.span * t_max / (y_slope * cos_quarter);
+        ChartPoint {
+            wi,
+            ab,
+            jacobian: jacobian.max(f64::MIN_POSITIVE),
+        }
     }
 
     /// From the hemisphere to the square; `wi` in the frame where wo has azimuth 0, wi.z > 0.
     #[inline]
     pub(crate) fn inverse(&self, wi: DVec3) -> ChartPoint {
-        let hx = wi.x + self.sin_o;
-        let hz = wi.z + self.cos_o;
-        let xy2 = hx * hx + wi.y * wi.y;
+        let (hx, hy, hz) = (wi.x + self.sin_o, wi.y, wi.z + self.cos_o);
+        let xy2 = hx * hx + hy * hy;
         let len2 = xy2 + hz * hz;
-        let len = len2.sqrt();
-        let inv_len = 1.0 / len;
-        let xy = xy2.sqrt();
-        let s = xy * inv_len;
-        let c = hz * inv_len;
-        // 2 (1 - c) = 2 xy^2 / (len (len + hz))
-        let r2 = 2.0 * xy2 / (len2 + len * hz);
-        let r = r2.sqrt();
-        let root = (r2 + self.r0 * self.r0).sqrt();
-        let (l, y_slope) = pseudo_log(((r + root) / self.r0).max(1.0));
-        let t_max = self.t_max(s, c);
-        let t = quarter_sine(hx, wi.y, xy);
-        let cos_quarter = (1.0 - t * t).sqrt();
-        let ab = DVec2::new(
-            (l / self.span).min(1.0),
-            (0.5 + 0.5 * t / t_max).clamp(0.0, 1.0),
-        );
+        let (len, xy) = (len2.sqrt(), xy2.sqrt());
+        // 2 (1 - cos theta_h) = 2 xy^2 / (len (len + hz))
+        let r = xy * (2.0 / (len2 + len * hz)).sqrt();
+        let root = (r * r + self.r0 * self.r0).sqrt();
+        let (l, y_slope) = pseudo_log(((r + root) * self.inv_r0).max(1.0));
+        let half_max = self.half_max(xy, hz);
+        let one_plus_max = 1.0 + (1.0 - half_max).sqrt();
+        // squares of cosine and sine of phi/2: of two forms of either, the one without cancellation
+        let e = xy + hx.abs();
+        let inv = 1.0 / (2.0 * xy * e).max(f64::MIN_POSITIVE);
+        let (large, small) = (e * e * inv, hy * hy * inv);
+        let (cos2, sin2) = if hx >= 0.0 {
+            (large, small)
+        } else {
+            (small, large)
+        };
+        let one_plus = 1.0 + cos2.min(1.0).sqrt();
+        // t / t_max and t_max / cos(phi/4)
+        let ratio = (sin2 * one_plus_max / (one_plus * half_max))
+            .sqrt()
+            .min(1.0);
+        let reach = (half_max / (one_plus_max * one_plus)).sqrt();
+        let ab = DVec2::new((l / self.span).min(1.0), 0.5 + 0.5 * ratio.copysign(hy));
         // wo.h = |wi + wo| / 2
-        let jacobian = self.jacobian(0.5 * len * r, root / y_slope, cos_quarter, t_max);
-        ChartPoint { wi, ab, jacobian }
+        let jacobian = 16.0 * len * r * root * self.span * reach / y_slope;
+        ChartPoint {
+            wi,
+            ab,
+            jacobian: jacobian.max(f64::MIN_POSITIVE),
+        }
     }
 
-    /// sin(phi_max / 4): from 1 - cos phi_max = (d - n) / d, branching before dividing.
+    /// sin^2(phi_max / 2) = (d - n) / (2 d), for sine and cosine of theta_h or any multiple of both; branches
+    /// before dividing.
     #[inline]
-    fn t_max(&self, s: f64, c: f64) -> f64 {
+    fn half_max(&self, s: f64, c: f64) -> f64 {
         let n = -self.cos_o * (c - s) * (c + s);
         let d = 2.0 * self.sin_o * s * c;
         if n <= -d {
-            return FRAC_1_SQRT_2;
+            return 1.0;
         }
-        let half = (0.5 * (d - n) / d).max(MIN_T * MIN_T); // sin^2(phi_max / 2)
-        quarter(half.sqrt(), (1.0 - half).max(0.0).sqrt())
-    }
-
-    #[inline]
-    fn jacobian(&self, wo_h_r: f64, dr_dl: f64, cos_quarter: f64, t_max: f64) -> f64 {
-        (32.0 * wo_h_r * dr_dl * self.span * t_max / cos_quarter).max(f64::MIN_POSITIVE)
+        (0.5 * (d - n) / d).clamp(MIN_HALF, 1.0)
     }
 }
 
-/// Lower bound of sin(phi_max / 2), reached only at the rim a = 1.
-const MIN_T: f64 = 1e-9;
-
-/// sin(x/2) from sin x and cos x, x in [-pi/2, pi/2].
-#[inline]
-fn quarter(sin: f64, cos: f64) -> f64 {
-    sin * FRAC_1_SQRT_2 / (1.0 + cos).sqrt()
-}
-
-/// sin(phi / 4) of the vector (x, y) of length r, phi in (-pi, pi]; 0 for r = 0.
-#[inline]
-fn quarter_sine(x: f64, y: f64, r: f64) -> f64 {
-    if r <= 0.0 {
-        return 0.0;
-    }
-    // (cos, sin)(phi/2) is parallel to (r + x, y) and to (|y|, r - x): take the one without cancellation
-    let (cos, sin) = if x >= 0.0 {
-        (r + x, y)
-    } else {
-        (y.abs(), (r - x).copysign(y))
-    };
-    let inv = 1.0 / (cos * cos + sin * sin).sqrt();
-    quarter(sin * inv, cos * inv)
-}
+/// Lower bound of sin^2(phi_max / 2), reached only at the rim a = 1.
+const MIN_HALF: f64 = 1e-18;
 
 #[cfg(test)]
 mod tests {

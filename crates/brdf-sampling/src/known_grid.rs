@@ -67,6 +67,13 @@ impl KnownGrid {
     }
 }
 
+/// What makes a vector of squared length near 1 a unit vector: 1 / sqrt(x) to first order. Directions arrive
+/// rounded to f32, and unequal lengths of wi and wo would tilt the half vector.
+#[inline]
+fn unit_factor(length_squared: f64) -> f64 {
+    1.5 - 0.5 * length_squared
+}
+
 /// A viewer direction split into elevation and azimuth: rotates light directions into the frame where the
 /// viewer has azimuth 0, and back.
 #[derive(Clone, Copy, Debug)]
@@ -80,17 +87,18 @@ pub(crate) struct ViewFrame {
 impl ViewFrame {
     #[inline]
     pub(crate) fn new(wo: DVec3) -> Self {
-        let r = (wo.x * wo.x + wo.y * wo.y).sqrt();
+        let r2 = wo.x * wo.x + wo.y * wo.y;
+        let r = r2.sqrt();
         let (cos_phi, sin_phi) = if r > 0.0 {
-            (wo.x / r, wo.y / r)
+            let inv = 1.0 / r;
+            (wo.x * inv, wo.y * inv)
         } else {
             (1.0, 0.0)
         };
-        // renormalised, because viewers arrive rounded to f32 and the chart needs a unit vector
-        let inv = 1.0 / (r * r + wo.z * wo.z).sqrt();
+        let unit = unit_factor(r2 + wo.z * wo.z);
         Self {
-            sin_o: r * inv,
-            cos_o: wo.z * inv,
+            sin_o: (r * unit).min(1.0),
+            cos_o: wo.z * unit,
             cos_phi,
             sin_phi,
         }
@@ -107,13 +115,15 @@ impl ViewFrame {
         }
     }
 
+    /// Also makes `w` a unit vector to first order.
     #[inline]
     pub(crate) fn to_local(self, w: DVec3) -> DVec3 {
-        DVec3::new(
-            w.x * self.cos_phi + w.y * self.sin_phi,
-            w.y * self.cos_phi - w.x * self.sin_phi,
-            w.z,
-        )
+        unit_factor(w.length_squared())
+            * DVec3::new(
+                w.x * self.cos_phi + w.y * self.sin_phi,
+                w.y * self.cos_phi - w.x * self.sin_phi,
+                w.z,
+            )
     }
 
     #[inline]

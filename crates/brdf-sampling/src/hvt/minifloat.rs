@@ -34,7 +34,10 @@ mod tests {
             let value = (f64::from(k) * 0.0022).exp();
             let back = f64::from(decode(encode(value)));
             // half a step of 1/16 at the low end of an octave
-            assert!((back / value - 1.0).abs() <= 1.0 / 32.0 + 1e-6, "{value} became {back}");
+            assert!(
+                (back / value - 1.0).abs() <= 1.0 / 32.0 + 1e-6,
+                "{value} became {back}"
+            );
         }
     }
 }

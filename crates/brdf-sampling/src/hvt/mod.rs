@@ -5,6 +5,7 @@
 //! the reflectance but the solution of a convex problem: least variance ([`problem`], [`optimise`]). Nodes are
 //! stored in a byte ([`minifloat`]); sampling is by marginal and conditional inversion ([`table`]).
 
+mod lanes;
 mod minifloat;
 mod optimise;
 mod options;
@@ -12,25 +13,25 @@ mod problem;
 mod shape;
 mod slices;
 mod table;
+mod validation;
 
 pub use options::{HvtOptions, MAX_B, Preset};
 
-use crate::chart::Chart;
+use crate::chart::{Chart, ChartPoint};
 use crate::cosine::{cosine_hemisphere, cosine_pdf};
 use crate::known_grid::ViewFrame;
 use crate::target::Target;
-use brdf::{DirectionSample, DirectionSampler};
+use brdf::{DirectionSample, DirectionSampler, LANES, Lanes3, SampleLanes};
 use glam::{DVec2, DVec3};
 use optimise::{Effort, optimise};
 use problem::{Problem, Unknowns};
 use rayon::prelude::*;
 use shape::Shape;
 use table::{Place, Table};
+use validation::Validation;
 
 /// Radial scales tried, radians.
-const SCALES: [f64; 9] = [
-    0.0007, 0.0015, 0.003, 0.007, 0.015, 0.03, 0.07, 0.16, 0.4,
-];
+const SCALES: [f64; 9] = [0.0007, 0.002, 0.005, 0.012, 0.03, 0.07, 0.16, 0.4, 1.0];
 
 /// A direction sampler of least variance for isotropic targets; anisotropic ones are averaged over the viewer's
 /// azimuth, which stays exact but loses variance.
@@ -89,44 +90,60 @@ impl Hvt {
         self.r0
     }
 
+    /// Density of a point of the chart per unit solid angle.
+    #[inline]
+    fn density(&self, view: &View, p: &ChartPoint) -> f64 {
+        let (a, b) = (p.ab.x as f32, p.ab.y as f32);
+        let body = f64::from(self.table.density(view.place, a, b));
+        view.lobe * cosine_pdf(p.wi) + body / p.jacobian
+    }
+
+    #[inline]
+    fn finish(&self, view: &View, wi: DVec3, p: &ChartPoint) -> DirectionSample {
+        let pdf = self.density(view, p);
+        DirectionSample { wi, pdf }
+    }
+
     #[inline]
     fn view(&self, wo: DVec3) -> View {
         let frame = ViewFrame::new(wo);
-        let (k, t) = slices::blend(
-            slices::tau(frame.sin_o, frame.cos_o),
-            self.table.shape.n_theta,
-        );
-        let place = self.table.place(k, t);
+        let slice = slices::tau(frame.cos_o) * (self.table.shape.n_theta - 1) as f64;
+        let place = self.table.place_at(slice as f32);
         View {
             frame,
             chart: Chart::new(frame.sin_o, frame.cos_o, self.r0),
             place,
-            lobe: self.table.lobe_at(place),
+            lobe: f64::from(self.table.lobe_at(place)),
         }
     }
 }
 
-/// The scale whose coarse table has the least variance.
+/// The scale whose coarse table has the least variance at the validation points.
 fn best_scale(target: &Target<'_>, shape: Shape) -> f64 {
     let coarse = Shape {
-        n_theta: shape.n_theta.min(6),
-        n_a: shape.n_a.min(24),
+        n_theta: shape.n_theta.min(7),
+        n_a: shape.n_a.min(32),
         n_b: shape.n_b.min(9),
     };
     let effort = Effort {
-        multiplicative: 3,
+        multiplicative: 4,
         newton: 0,
         gradients: 0,
     };
+    let validation = Validation::new(target);
     let costs: Vec<f64> = SCALES
         .par_iter()
         .map(|&r0| {
             let problem = Problem::new(target, coarse, r0, 1);
             if problem.is_empty() {
-                f64::INFINITY
-            } else {
-                optimise(&problem, effort).1
+                return f64::INFINITY;
             }
+            let (x, _) = optimise(&problem, effort);
+            validation.variance(&Hvt {
+                table: Table::new(coarse, x),
+                r0,
+                predicted: 0.0,
+            })
         })
         .collect();
     let best = (0..SCALES.len()).min_by(|&a, &b| costs[a].total_cmp(&costs[b]));
@@ -142,21 +159,14 @@ impl DirectionSampler for Hvt {
         let view = self.view(wo);
         let body = 1.0 - view.lobe;
         if u.x < body {
-            let (a, b) = self.table.invert(view.place, u.x, u.y);
-            let p = view.chart.forward(DVec2::new(a, b));
-            let density = self.table.density(view.place, a, b);
-            return Some(DirectionSample {
-                wi: view.frame.to_world(p.wi),
-                pdf: view.lobe * cosine_pdf(p.wi) + density / p.jacobian,
-            });
+            let (a, b) = self.table.invert(view.place, u.x as f32, u.y as f32);
+            let p = view.chart.forward(DVec2::new(f64::from(a), f64::from(b)));
+            let wi = view.frame.to_world(p.wi);
+            return Some(self.finish(&view, wi, &p));
         }
         let wi = cosine_hemisphere(DVec2::new((u.x - body) / view.lobe, u.y));
         let p = view.chart.inverse(view.frame.to_local(wi));
-        let density = self.table.density(view.place, p.ab.x, p.ab.y);
-        Some(DirectionSample {
-            wi,
-            pdf: view.lobe * cosine_pdf(wi) + density / p.jacobian,
-        })
+        Some(self.finish(&view, wi, &p))
     }
 
     #[inline]
@@ -166,11 +176,20 @@ impl DirectionSampler for Hvt {
         }
         let view = self.view(wo);
         let p = view.chart.inverse(view.frame.to_local(wi));
-        let density = self.table.density(view.place, p.ab.x, p.ab.y);
-        view.lobe * cosine_pdf(wi) + density / p.jacobian
+        self.density(&view, &p)
     }
 
     fn bytes(&self) -> usize {
         self.table.bytes()
+    }
+
+    #[inline]
+    fn sample_lanes(&self, wo: &Lanes3, u: &[[f32; LANES]; 2]) -> SampleLanes {
+        lanes::sample(&self.table, self.r0 as f32, wo, u)
+    }
+
+    #[inline]
+    fn pdf_lanes(&self, wi: &Lanes3, wo: &Lanes3) -> [f32; LANES] {
+        lanes::pdf(&self.table, self.r0 as f32, wi, wo)
     }
 }

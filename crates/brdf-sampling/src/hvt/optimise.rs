@@ -101,7 +101,9 @@ fn multipliers(shape: Shape, x: &Unknowns, gradient: &Unknowns) -> Vec<f64> {
     let n = shape.slice();
     (0..shape.n_theta)
         .map(|k| {
-            let nodes = x.nodes[k * n..][..n].iter().zip(&gradient.nodes[k * n..][..n]);
+            let nodes = x.nodes[k * n..][..n]
+                .iter()
+                .zip(&gradient.nodes[k * n..][..n]);
             let sum = nodes.map(|(c, g)| c * g).sum::<f64>() + x.lobe[k] * gradient.lobe[k];
             if sum > 0.0 { sum } else { 1.0 }
         })
@@ -163,7 +165,8 @@ fn newton_direction(
             Index::Node(_) => 1.5 * FLOOR,
             Index::Lobe(_) => 1.01 * LOBE_FLOOR,
         };
-        let is_free = index.of(&diagonal) > 0.0 && (index.of(x) > floor || index.of(&residual) > 0.0);
+        let is_free =
+            index.of(&diagonal) > 0.0 && (index.of(x) > floor || index.of(&residual) > 0.0);
         move |value: &mut f64| *value = f64::from(u8::from(is_free))
     });
     multiply(&mut residual, &free);

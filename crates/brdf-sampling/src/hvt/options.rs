@@ -33,7 +33,7 @@ pub struct HvtOptions {
 }
 
 /// Most nodes across.
-pub const MAX_B: usize = 64;
+pub const MAX_B: usize = 32;
 
 impl Preset {
     /// All presets, smallest first.

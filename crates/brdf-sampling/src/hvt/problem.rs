@@ -19,6 +19,8 @@ use rayon::prelude::*;
 /// Points of a cell along a and b.
 const SUB: [usize; 2] = [3, 2];
 pub(crate) const POINTS: usize = SUB[0] * SUB[1];
+/// Weight of viewers beside their share of theta_o: grazing ones have hardly any.
+const GRAZING: f64 = 0.4;
 /// Viewers are kept this far above the horizon, in cos theta_o.
 const MIN_COS: f64 = 2e-3;
 
@@ -45,6 +47,8 @@ struct View {
     /// Slice below and weight of the one above.
     k: usize,
     t: f64,
+    /// Weight among the viewers, before normalisation.
+    omega: f64,
     /// Bilinear weights of the points of a cell at its corners (i,j), (i,j+1), (i+1,j), (i+1,j+1).
     hats: [[f32; 4]; POINTS],
     /// omega T^2 / (int T)^2 / points, cell after cell.
@@ -70,22 +74,16 @@ pub(crate) struct Pass {
 impl Problem {
     /// Evaluates the target at `POINTS` points of every cell for `per_interval` viewers a slice interval and at
     /// the slices themselves.
-    pub(crate) fn new(
-        target: &Target<'_>,
-        shape: Shape,
-        r0: f64,
-        per_interval: usize,
-    ) -> Self {
+    pub(crate) fn new(target: &Target<'_>, shape: Shape, r0: f64, per_interval: usize) -> Self {
         let n = (shape.n_theta - 1) * per_interval + 1;
         let mut views: Vec<View> = (0..n)
             .into_par_iter()
             .filter_map(|m| view(target, shape, r0, m, n))
             .collect();
-        let total: f64 = views.len() as f64;
+        let total: f64 = views.iter().map(|v| v.omega).sum();
         for v in &mut views {
-            for s in &mut v.s {
-                *s /= total as f32;
-            }
+            let share = (v.omega / total) as f32;
+            v.s.iter_mut().for_each(|s| *s *= share);
         }
         Self { shape, views }
     }
@@ -115,7 +113,7 @@ impl Problem {
                 let t = t * t; // slices near the viewer count most
                 sum.lobe[k] += t * lobe;
                 weight.lobe[k] += t;
-                self.scatter_value(v, k, t, lobe, &mut sum.nodes, &mut weight.nodes);
+                self.scatter_value(v, (k, t), lobe, &mut sum.nodes, &mut weight.nodes);
             }
         }
         for (s, w) in sum.nodes.iter_mut().zip(&weight.nodes) {
@@ -130,8 +128,7 @@ impl Problem {
     fn scatter_value(
         &self,
         v: &View,
-        k: usize,
-        t: f64,
+        (k, t): (usize, f64),
         lobe: f64,
         sum: &mut [f64],
         weight: &mut [f64],
@@ -159,7 +156,8 @@ impl Problem {
 
     /// The Hessian at `x` times `v`.
     pub(crate) fn hessian(&self, x: &Unknowns, v: &Unknowns) -> Unknowns {
-        self.pass(x, Some(v), |s, p, q| (2.0 * s * q / (p * p * p), 0.0)).out
+        self.pass(x, Some(v), |s, p, q| (2.0 * s * q / (p * p * p), 0.0))
+            .out
     }
 
     /// Its diagonal.
@@ -167,7 +165,11 @@ impl Problem {
         let parts: Vec<_> = self
             .views
             .par_iter()
-            .map(|v| self.sweep(v, &self.blended(v, x), None, true, &|s, p, _| (2.0 * s / (p * p * p), 0.0)))
+            .map(|v| {
+                self.sweep(v, &self.blended(v, x), None, true, &|s, p, _| {
+                    (2.0 * s / (p * p * p), 0.0)
+                })
+            })
             .collect();
         self.reduce(&parts, |t| t * t).out
     }
@@ -208,7 +210,10 @@ impl Problem {
     /// Node values and lobe weight at a viewer between slices.
     fn blended(&self, view: &View, x: &Unknowns) -> (Vec<f32>, f32) {
         let n = self.shape.slice();
-        let (low, high) = (&x.nodes[view.k * n..][..n], &x.nodes[(view.k + 1) * n..][..n]);
+        let (low, high) = (
+            &x.nodes[view.k * n..][..n],
+            &x.nodes[(view.k + 1) * n..][..n],
+        );
         let mix = |a: f64, b: f64| ((1.0 - view.t) * a + view.t * b) as f32;
         let nodes = low.iter().zip(high).map(|(a, b)| mix(*a, *b)).collect();
         (nodes, mix(x.lobe[view.k], x.lobe[view.k + 1]))
@@ -240,11 +245,19 @@ impl Problem {
                     let at = |c: &[f32; 4], lobe: f32| {
                         c[0] * hat[0] + c[1] * hat[1] + c[2] * hat[2] + c[3] * hat[3] + lobe * d
                     };
-                    let (g, part) = f(view.s[first + p], at(&c, x.1), at(&q, v.map_or(0.0, |v| v.1)));
+                    let (g, part) = f(
+                        view.s[first + p],
+                        at(&c, x.1),
+                        at(&q, v.map_or(0.0, |v| v.1)),
+                    );
                     value += f64::from(part);
                     lobe += f64::from(if squared { g * d * d } else { g * d });
                     for corner in 0..4 {
-                        sum[corner] += g * if squared { hat[corner] * hat[corner] } else { hat[corner] };
+                        sum[corner] += g * if squared {
+                            hat[corner] * hat[corner]
+                        } else {
+                            hat[corner]
+                        };
                     }
                 }
                 out[node] += sum[0];
@@ -288,7 +301,10 @@ fn view(target: &Target<'_>, shape: Shape, r0: f64, m: usize, n: usize) -> Optio
     let shift = (m as f64 * 0.618_033_988_75).fract();
     let place = |p: usize| {
         let at = |k: usize, n: usize, x: f64| (k as f64 + x) / n as f64;
-        (at(p / SUB[1], SUB[0], 0.2 + 0.6 * shift), at(p % SUB[1], SUB[1], 0.8 - 0.6 * shift))
+        (
+            at(p / SUB[1], SUB[0], 0.2 + 0.6 * shift),
+            at(p % SUB[1], SUB[1], 0.8 - 0.6 * shift),
+        )
     };
     let hats = std::array::from_fn(|p| {
         let (x, y) = place(p);
@@ -317,6 +333,7 @@ fn view(target: &Target<'_>, shape: Shape, r0: f64, m: usize, n: usize) -> Optio
     Some(View {
         k,
         t,
+        omega: slices::spread(tau) + GRAZING,
         hats,
         s,
         d,

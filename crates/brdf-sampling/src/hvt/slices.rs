@@ -4,10 +4,11 @@
 //! horizon, where it goes as the root of the elevation. Slices are even in tau; between them densities blend
 //! linearly.
 
-/// tau of the viewer with sine and cosine of theta_o; 1 - cos = sin^2 / (1 + cos) keeps its digits.
+/// tau of the viewer with cosine of theta_o. Near the normal it is good to 1e-8 only, which moves weights
+/// between slices, the same in sample and pdf.
 #[inline]
-pub(crate) fn tau(sin_o: f64, cos_o: f64) -> f64 {
-    let root = sin_o / (1.0 + cos_o).sqrt();
+pub(crate) fn tau(cos_o: f64) -> f64 {
+    let root = (1.0 - cos_o).max(0.0).sqrt();
     1.0 - (1.0 - root).max(0.0).sqrt()
 }
 
@@ -16,6 +17,13 @@ pub(crate) fn viewer(tau: f64) -> (f64, f64) {
     let root = tau * (2.0 - tau);
     let cos = 1.0 - root * root;
     (root * (2.0 - root * root).max(0.0).sqrt(), cos)
+}
+
+/// d theta_o / d tau: what a viewer at `tau` stands for.
+pub(crate) fn spread(tau: f64) -> f64 {
+    let root = tau * (2.0 - tau);
+    // cos = 1 - root^2, so d theta = 2 root d root / sin = 2 d root / sqrt(2 - root^2)
+    4.0 * (1.0 - tau) / (2.0 - root * root).sqrt()
 }
 
 /// The slice below, and the weight of the one above.
@@ -37,7 +45,7 @@ mod tests {
             let (s, c) = viewer(t);
             assert!((s * s + c * c - 1.0).abs() < 1e-14, "unit at {t}");
             // a square root of the rounding of 1 - root, near the horizon
-            assert!((tau(s, c) - t).abs() < 3e-8, "{t} came back as {}", tau(s, c));
+            assert!((tau(c) - t).abs() < 3e-8, "{t} came back as {}", tau(c));
         }
     }
 }

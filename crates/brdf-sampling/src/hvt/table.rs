@@ -66,13 +66,15 @@ impl Table {
     }
 
     pub(crate) fn bytes(&self) -> usize {
-        self.nodes.len() + size_of::<f32>() * (self.scale.len() + self.lobe.len() + self.below.len())
+        self.nodes.len()
+            + size_of::<f32>() * (self.scale.len() + self.lobe.len() + self.below.len())
     }
 
-    /// The blend at weight `t` between slices `k` and `k + 1`.
+    /// The blend at slice coordinate `x` in [0, `n_theta` - 1].
     #[inline]
-    pub(crate) fn place(&self, k: usize, t: f64) -> Place {
-        let t = t as f32;
+    pub(crate) fn place_at(&self, x: f32) -> Place {
+        let k = (x as usize).min(self.shape.n_theta - 2);
+        let t = x - k as f32;
         Place {
             k,
             t,
@@ -82,62 +84,67 @@ impl Table {
 
     /// Weight of the cosine lobe.
     #[inline]
-    pub(crate) fn lobe_at(&self, p: Place) -> f64 {
-        f64::from((1.0 - p.t) * self.lobe[p.k] + p.t * self.lobe[p.k + 1])
+    pub(crate) fn lobe_at(&self, p: Place) -> f32 {
+        (1.0 - p.t) * self.lobe[p.k] + p.t * self.lobe[p.k + 1]
     }
 
     /// The bilinear density at (a, b) in [0, 1]^2.
     #[inline]
-    pub(crate) fn density(&self, p: Place, a: f64, b: f64) -> f64 {
+    pub(crate) fn density(&self, p: Place, a: f32, b: f32) -> f32 {
         let (i, x) = split(a, self.shape.n_a);
         let (j, y) = split(b, self.shape.n_b);
         let (nb, n) = (self.shape.n_b, self.shape.slice());
         let corner = |slice: usize| {
             let at = slice * n + i * nb + j;
-            // one bounds check for the six nodes from here to the next row
+            // one bounds check for the nodes from here to the next row
             let q = &self.nodes[at..at + nb + 2];
             let low = decode(q[0]) + y * (decode(q[1]) - decode(q[0]));
             let high = decode(q[nb]) + y * (decode(q[nb + 1]) - decode(q[nb]));
             low + x * (high - low)
         };
-        f64::from(p.factor[0] * corner(p.k) + p.factor[1] * corner(p.k + 1))
+        p.factor[0] * corner(p.k) + p.factor[1] * corner(p.k + 1)
     }
 
     /// The point whose marginal mass is `u` of a and whose conditional mass fraction is `v` of b; `u` in [0, 1 -
     /// lobe).
     #[inline]
-    pub(crate) fn invert(&self, p: Place, u: f64, v: f64) -> (f64, f64) {
+    pub(crate) fn invert(&self, p: Place, u: f32, v: f32) -> (f32, f32) {
         let (i, fraction) = self.row_of(p, u);
         let (low, high) = (self.row(p, i), self.row(p, i + 1));
         let nb = self.shape.n_b;
-        let mass = |r: &Row| f64::from(r[..nb].iter().sum::<f32>() - 0.5 * (r[0] + r[nb - 1]));
+        let mass = |r: &Row| r[..nb].iter().sum::<f32>() - 0.5 * (r[0] + r[nb - 1]);
         let x = linear(mass(&low), mass(&high), fraction);
         let mut row = [0.0; MAX_B];
-        let xf = x as f32;
-        for j in 0..nb {
-            row[j] = low[j] + xf * (high[j] - low[j]);
+        for ((r, l), h) in row.iter_mut().zip(&low).zip(&high) {
+            *r = l + x * (h - l);
         }
         let (j, y) = column(&row[..nb], v);
         (
-            (i as f64 + x) / (self.shape.n_a - 1) as f64,
-            (j as f64 + y) / (nb - 1) as f64,
+            (i as f32 + x) / (self.shape.n_a - 1) as f32,
+            (j as f32 + y) / (nb - 1) as f32,
         )
     }
 
     /// The interval of rows in which the blended marginal reaches `u`, and the fraction of its mass.
     #[inline]
-    fn row_of(&self, p: Place, u: f64) -> (usize, f64) {
+    fn row_of(&self, p: Place, u: f32) -> (usize, f32) {
         let na = self.shape.n_a;
-        let (low, high) = (&self.below[p.k * na..][..na], &self.below[(p.k + 1) * na..][..na]);
+        let (low, high) = (
+            &self.below[p.k * na..][..na],
+            &self.below[(p.k + 1) * na..][..na],
+        );
         let below = |i: usize| low[i] + p.t * (high[i] - low[i]);
-        let uf = u as f32;
         let (mut first, mut len) = (0, na - 1);
         while len > 1 {
             let half = len / 2;
-            first = if below(first + half) <= uf { first + half } else { first };
+            first = if below(first + half) <= u {
+                first + half
+            } else {
+                first
+            };
             len -= half;
         }
-        let (l, h) = (f64::from(below(first)), f64::from(below(first + 1)));
+        let (l, h) = (below(first), below(first + 1));
         (first, ((u - l) / (h - l)).clamp(0.0, 1.0))
     }
 
@@ -156,26 +163,26 @@ impl Table {
 
 /// The interval of `x` in [0, 1] among `n` nodes, and where in it.
 #[inline]
-pub(crate) fn split(x: f64, n: usize) -> (usize, f32) {
-    let x = x * (n - 1) as f64;
+fn split(x: f32, n: usize) -> (usize, f32) {
+    let x = x * (n - 1) as f32;
     let i = (x as usize).min(n - 2);
-    (i, (x - i as f64) as f32)
+    (i, x - i as f32)
 }
 
 /// The point of [0, 1] at which a density linear from `r0` to `r1` holds the fraction `y` of its mass. The
 /// quadratic is solved in the form without cancellation.
 #[inline]
-fn linear(r0: f64, r1: f64, y: f64) -> f64 {
+fn linear(r0: f32, r1: f32, y: f32) -> f32 {
     let y = y * (r0 + r1);
     (y / (r0 + (r0 * r0 + (r1 - r0) * y).max(0.0).sqrt())).min(1.0)
 }
 
 /// The interval in which the trapezoid sums of `row` reach the fraction `v`, and the place in it.
 #[inline]
-fn column(row: &[f32], v: f64) -> (usize, f64) {
+fn column(row: &[f32], v: f32) -> (usize, f32) {
     let last = row.len() - 1;
     let total = row.iter().sum::<f32>() - 0.5 * (row[0] + row[last]);
-    let target = total * v as f32;
+    let target = total * v;
     let (mut sum, mut j) = (0.0, 0);
     let mut cell = 0.5 * (row[0] + row[1]);
     while j + 1 < last && sum + cell <= target {
@@ -183,6 +190,6 @@ fn column(row: &[f32], v: f64) -> (usize, f64) {
         j += 1;
         cell = 0.5 * (row[j] + row[j + 1]);
     }
-    let y = ((f64::from(total) * v - f64::from(sum)) / f64::from(cell)).clamp(0.0, 1.0);
-    (j, linear(f64::from(row[j]), f64::from(row[j + 1]), y))
+    let y = ((target - sum) / cell).clamp(0.0, 1.0);
+    (j, linear(row[j], row[j + 1], y))
 }

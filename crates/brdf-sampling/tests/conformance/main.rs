@@ -61,8 +61,9 @@ fn run_chi_square(entries: &[&Entry], cases: &[Case], angles: &[f64], samples: u
 
 #[test]
 fn chi_square_of_every_sampler() {
-    let entries: Vec<&Entry> = ALL.iter().collect();
-    run_chi_square(&entries, &targets::all(), &[33.3], 6_000);
+    // the larger tables run in the slow tier: their cells take the time
+    let entries: Vec<&Entry> = ALL.iter().filter(|e| !e.name.contains("default")).collect();
+    run_chi_square(&entries, &targets::all(), &[33.3], 3_000);
 }
 
 #[test]

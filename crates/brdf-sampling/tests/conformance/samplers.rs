@@ -3,7 +3,8 @@
 use crate::targets::Case;
 use brdf::DirectionSampler;
 use brdf_sampling::{
-    Cosine, Inversion, InversionOptions, Proposal, Rejection, RejectionOptions, Target, Uniform,
+    Cosine, Hvt, Inversion, InversionOptions, Preset, Proposal, Rejection, RejectionOptions,
+    Target, Uniform,
 };
 
 /// A sampler with a name; names begin with the type's.
@@ -34,6 +35,14 @@ pub(crate) const ALL: &[Entry] = &[
             };
             Box::new(Inversion::new(target(case), options))
         },
+    },
+    Entry {
+        name: "Hvt tiny",
+        build: |case| Box::new(Hvt::new(target(case), Preset::Tiny.options())),
+    },
+    Entry {
+        name: "Hvt default",
+        build: |case| Box::new(Hvt::new(target(case), Preset::Default.options())),
     },
     Entry {
         name: "Rejection uniform",
