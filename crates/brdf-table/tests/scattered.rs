@@ -140,7 +140,7 @@ fn the_thin_plate_finds_the_truth_between_rows_and_the_thesis_does_not() {
         let mut sum = 0.0;
         for k in 0..40 {
             // near the mirror direction, between the rings
-            let theta = 14.0 + 1.5 * f64::from(k);
+            let theta = 24.0 + 1.2 * f64::from(k);
             let g = at(theta, theta + 2.0, 178.0);
             let (have, status) = eval(m, g);
             assert_eq!(status, Status::Interpolated, "{g:?}");
@@ -246,7 +246,11 @@ fn directions_below_the_horizon_give_zero() {
 #[test]
 fn dead_rows_are_isolated() {
     let angles = cornell_grid();
-    let is_dead = |a: &[f64; 4]| a[0] > 1.39 && a[2] > 1.37 && (-2.94..-2.7).contains(&a[3]);
+    let is_dead = |a: &[f64; 4]| {
+        (1.04..1.05).contains(&a[0])
+            && (1.03..1.04).contains(&a[2])
+            && (-3.1..-2.85).contains(&a[3])
+    };
     let values = angles.iter().flat_map(|a| {
         if is_dead(a) {
             [0.0; 3]
@@ -272,7 +276,8 @@ fn dead_rows_are_isolated() {
         ..g
     };
     let ratio = eval(&plate, beside).0[1] / truth(beside)[1];
-    assert!((ratio - 1.0).abs() < 0.15, "beside a dead row: {ratio}");
+    // two rows of the lobe's flank are missing
+    assert!((ratio - 1.0).abs() < 0.25, "beside a dead row: {ratio}");
     let keep = Policies {
         dead: DeadRows::Keep,
         ..Policies::default()

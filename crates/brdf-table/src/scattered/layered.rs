@@ -85,9 +85,9 @@ impl LayeredTable {
         while low < high {
             let middle = low + (high - low) / 2;
             if angle(middle) <= x {
-                low = middle + 1
+                low = middle + 1;
             } else {
-                high = middle
+                high = middle;
             }
         }
         let upper = low.min(last);

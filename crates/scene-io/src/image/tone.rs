@@ -2,6 +2,7 @@
 
 use super::picture::Picture;
 use rayon::slice::ParallelSliceMut;
+use spectrum::LUMINANCE_SRGB;
 
 /// One factor, then clamping to [0, 1], then the sRGB curve [Iec61966]: nothing that bends colours.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -10,8 +11,6 @@ pub struct ToneMap {
     pub scale: f32,
 }
 
-/// Luminance of the linear sRGB primaries [Bt709].
-const LUMINANCE_SRGB: [f64; 3] = [0.2126, 0.7152, 0.0722];
 /// The percentile that [`ToneMap::auto`] looks at ...
 const PERCENTILE: f64 = 0.9;
 /// ... and the linear value it becomes.

@@ -2,9 +2,9 @@
 
 use brdf::Measured;
 use brdf_formats::Format;
+use brdf_table::scattered::FillReport;
 use brdf_table::{CellReport, Gridded};
-#[cfg(any())]
-use brdf_table::{FillReport, ThinPlate};
+use brdf_table::{RglTable, ThinPlate};
 use std::fmt;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -36,13 +36,17 @@ pub enum Detail {
         /// Cells by verdict.
         cells: CellReport,
     },
-    #[cfg(any())]
     /// Scattered rows, interpolated by thin plates.
     Scattered {
         /// Rows in the file.
         rows: usize,
         /// What was filled, left out and kept.
         fill: Box<FillReport>,
+    },
+    /// An RGL tensor file, in its own coordinates.
+    Rgl {
+        /// What its authors wrote about it.
+        description: String,
     },
     /// Scattered rows under one of the older schemes.
     Rows {
@@ -57,8 +61,9 @@ pub enum Detail {
 #[derive(Clone)]
 pub(super) enum Form {
     Grid(Gridded),
-    #[cfg(any())]
     ThinPlate(Arc<ThinPlate>),
+    /// With the hash of its file.
+    Rgl(Arc<RglTable>, u64),
     /// Only ever asked through `measured`.
     Opaque,
 }

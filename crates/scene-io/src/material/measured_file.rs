@@ -5,10 +5,10 @@ use super::options::MaterialOptions;
 use crate::error::{Error, ErrorKind};
 use crate::load;
 use crate::scene::{InterpolationName, NegativeName};
+use crate::sealed::content_hash;
 use brdf::Measured;
 use brdf_formats::{File, Format, MERL_SCALE, MerlStream, PREFIX};
-use brdf_table::{CellPolicy, Gridded, Interpolation, PhiDomain, TableBuilder};
-#[cfg(any())]
+use brdf_table::{CellPolicy, Gridded, Interpolation, PhiDomain, RglTable, TableBuilder};
 use brdf_table::{LayerMode, LayeredTable, NegativePolicy, Policies, SampleCloud, ThinPlate};
 use spectrum::{Basis, RgbSpace};
 use std::io::{Chain, Cursor, Read};
@@ -54,27 +54,49 @@ fn from_source(
                 let message = format!("cannot read: {}", crate::error::os_message(&e));
                 Error::new(ErrorKind::Read, message)
             })?;
-            parsed(brdf_formats::read(bytes).map_err(broken)?, length, options)
+            let key = content_hash(&bytes);
+            let file = brdf_formats::read(bytes).map_err(broken)?;
+            parsed(&file, (length, key), options)
         }
     }
 }
 
-fn parsed(file: File, length: u64, options: &MaterialOptions) -> Result<LoadedMeasured, Error> {
+fn parsed(
+    file: &File,
+    (length, key): (u64, u64),
+    options: &MaterialOptions,
+) -> Result<LoadedMeasured, Error> {
     let format = file.format();
-    #[cfg(any())]
     let invalid = |e: brdf_table::CloudError| Error::invalid(e.to_string());
-    match &file {
-        #[cfg(any())]
+    match file {
         File::Astm(astm) => {
             let cloud = SampleCloud::from_astm(astm).map_err(invalid)?;
             scattered(format, &cloud, length, options)
         }
-        #[cfg(any())]
         File::PbrtText(text) => {
             let cloud = SampleCloud::from_pbrt_text(text).map_err(invalid)?;
             scattered(format, &cloud, length, options)
         }
         File::Merl(merl_file) => merl(format, Cursor::new(merl_file.to_bytes()), length, options),
+        File::Rgl(rgl) => {
+            if !matches!(
+                options.interpolation,
+                InterpolationName::Auto | InterpolationName::Linear
+            ) {
+                return Err(misplaced(options.interpolation));
+            }
+            let table = Arc::new(RglTable::new(rgl).map_err(broken)?);
+            Ok(LoadedMeasured {
+                measured: Arc::clone(&table) as Arc<dyn Measured>,
+                format,
+                path: Default::default(),
+                bytes: length,
+                detail: Detail::Rgl {
+                    description: rgl.description(),
+                },
+                form: Form::Rgl(table, key),
+            })
+        }
         _ => Err(Error::unsupported(format!(
             "{} files are read but cannot be rendered yet",
             format.title
@@ -101,7 +123,7 @@ fn merl(
     let interpolation = match options.interpolation {
         InterpolationName::Auto | InterpolationName::Linear => Interpolation::Linear,
         InterpolationName::Nearest => Interpolation::Nearest,
-        other => return Err(only_scattered(other)),
+        other => return Err(misplaced(other)),
     };
     let policy = match options.negatives {
         NegativeName::Auto => CellPolicy::default(),
@@ -140,13 +162,12 @@ fn merl(
     })
 }
 
-fn only_scattered(name: InterpolationName) -> Error {
+fn misplaced(name: InterpolationName) -> Error {
     Error::invalid(format!(
-        "expected interpolation nearest or linear for a grid, found \"{name}\" (for scattered measurements)"
+        "expected an interpolation that goes with this format (nearest or linear for grids, linear for RGL), found \"{name}\""
     ))
 }
 
-#[cfg(any())]
 fn scattered(
     format: &'static Format,
     cloud: &SampleCloud,
@@ -174,7 +195,6 @@ fn scattered(
     })
 }
 
-#[cfg(any())]
 fn thin_plate(
     format: &'static Format,
     cloud: &SampleCloud,

@@ -6,6 +6,7 @@
 
 mod loaded;
 mod measured_file;
+mod measured_model;
 mod options;
 mod pair;
 mod surface;

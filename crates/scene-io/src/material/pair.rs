@@ -6,11 +6,12 @@ use crate::scene::SamplerName;
 use crate::sealed::content_hash;
 use brdf::{Brdf, DirectionSampler, Material, Paired};
 use brdf_sampling::{
-    Cosine, Inversion, InversionOptions, Rejection, RejectionOptions, SharedTarget, Target, Uniform,
+    Cosine, Hvt, Inversion, InversionOptions, Preset, Rejection, RejectionOptions, SharedTarget,
+    Target, Uniform,
 };
 use brdf_table::GriddedN;
 use glam::DVec3;
-const LUMINANCE_SRGB: [f64; 3] = [0.2126, 0.7152, 0.0722];
+use spectrum::LUMINANCE_SRGB;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -50,24 +51,17 @@ pub(super) fn pair<B: Brdf<3> + Clone + 'static>(
     let (material, mut report) = match name {
         SamplerName::Uniform => with(brdf, Uniform, name),
         SamplerName::Cosine => with(brdf, Cosine, name),
-        SamplerName::Auto | SamplerName::Inversion => {
-            let f = |wi, wo| luminance(&brdf, wi, wo);
-            let target = Target {
-                f: &f,
-                symmetry: brdf.symmetry(),
-            };
-            let sampler = Inversion::new(target, InversionOptions::default());
-            with(brdf, sampler, SamplerName::Inversion)
+        SamplerName::Auto | SamplerName::Hvt => {
+            let sampler = tabulate(&brdf, |target| Hvt::new(target, Preset::Default.options()));
+            with(brdf, sampler, SamplerName::Hvt)
+        }
+        SamplerName::Inversion => {
+            let sampler = tabulate(&brdf, |t| Inversion::new(t, InversionOptions::default()));
+            with(brdf, sampler, name)
         }
         SamplerName::Rejection => {
             let key = key(&brdf);
             rejection(brdf, key, cache)?
-        }
-        SamplerName::Hvt => {
-            return Err(Error::unsupported(
-                "the sampler \"hvt\" is not supported yet; \"inversion\" is the nearest to it",
-            )
-            .in_field("sampler"));
         }
         SamplerName::Native => {
             return Err(Error::invalid(
@@ -121,6 +115,15 @@ fn rejection<B: Brdf<3> + Clone + 'static>(
     let (material, mut report) = with(brdf, sampler, SamplerName::Rejection);
     report.notes = notes;
     Ok((material, report))
+}
+
+/// Builds a sampler for the luminance of `brdf`.
+fn tabulate<S>(brdf: &impl Brdf<3>, build: impl FnOnce(Target<'_>) -> S) -> S {
+    let f = |wi, wo| luminance(brdf, wi, wo);
+    build(Target {
+        f: &f,
+        symmetry: brdf.symmetry(),
+    })
 }
 
 fn luminance(brdf: &impl Brdf<3>, wi: DVec3, wo: DVec3) -> f64 {

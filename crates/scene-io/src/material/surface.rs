@@ -1,17 +1,18 @@
 //! Any material as linear sRGB reflectance.
 
 use super::loaded::{Form, LoadedMeasured};
+use super::measured_model;
 use super::options::MaterialOptions;
 use super::pair::{self, SamplerReport};
-use crate::cache::Cache;
+use crate::cache::{Cache, combine};
 use crate::error::Error;
 use crate::scene::{InterpolationName, SamplerName};
 use crate::sealed::content_hash;
-use brdf::{Brdf, Material, Measured, Status, Symmetry};
+use brdf::{Brdf, DirectionSampler, Material, Measured, Paired, Projected, Status, Symmetry};
 use brdf_models::{Built, ParsedModel, parse_model};
-#[cfg(any())]
-use brdf_table::{DEFAULT_DIMS, ThinPlate, resample};
-use brdf_table::{GriddedN, HalfDiffTable, Interpolation, PhiDomain};
+use brdf_table::scattered::DEFAULT_DIMS;
+use brdf_table::{GriddedN, HalfDiffTable, Interpolation, PhiDomain, RglN, RglTable};
+use brdf_table::{ThinPlate, resample};
 use spectrum::{Basis, RgbSpace};
 use std::fmt;
 use std::sync::Arc;
@@ -30,6 +31,8 @@ enum Form3 {
     Grid(GriddedN<3>),
     /// With its full text, which is all its values depend on.
     Model(Built<3>, String),
+    /// With its own sampling, and what tells it from others.
+    Rgl(Arc<dyn Brdf<3>>, Arc<RglTable>, u64),
 }
 
 impl fmt::Debug for Surface {
@@ -48,8 +51,8 @@ impl Surface {
     pub fn of_file(loaded: &LoadedMeasured, options: &MaterialOptions) -> Result<Self, Error> {
         let mut notes = Vec::new();
         let (table, interpolation) = match &loaded.form {
+            Form::Rgl(table, key) => return Self::rgl(table, *key, options.scale),
             Form::Grid(grid) => (Arc::clone(&grid.table), grid.interpolation),
-            #[cfg(any())]
             Form::ThinPlate(plate) => (
                 Arc::new(from_plate(plate, &mut notes)?),
                 Interpolation::Linear,
@@ -94,7 +97,7 @@ impl Surface {
                 return Err(Error::invalid(message).in_field("interpolation"));
             }
         };
-        let table = tabulated(&*parsed.built.brdf);
+        let table = measured_model::measured(&*parsed.built.brdf)?;
         let notes = vec![format!("{parsed} on a grid of 90 x 90 x 180 cells")];
         let table = scaled(Arc::new(table), options.scale)?;
         Self::grid(table, interpolation, notes)
@@ -123,6 +126,29 @@ impl Surface {
         Self::grid(Arc::new(table), Interpolation::Linear, notes)
     }
 
+    fn rgl(table: &Arc<RglTable>, key: u64, scale: [f64; 3]) -> Result<Self, Error> {
+        let mut matrix = table.basis().to_linear_srgb();
+        for row in &mut matrix {
+            (0..3).for_each(|c| row[c] *= scale[c]);
+        }
+        let whole = RglN::<3>::new(Arc::clone(table)).filter(|_| is_one(scale));
+        let brdf: Arc<dyn Brdf<3>> = match whole {
+            Some(rgb) => Arc::new(rgb),
+            None => Arc::new(Projected::new(Arc::clone(table), matrix).ok_or_else(|| {
+                Error::invalid("expected as many channels as the basis has, found others")
+            })?),
+        };
+        let bits = scale.map(f64::to_bits);
+        Ok(Self {
+            form: Form3::Rgl(
+                brdf,
+                Arc::clone(table),
+                combine(&[key, bits[0], bits[1], bits[2]]),
+            ),
+            notes: Vec::new(),
+        })
+    }
+
     fn grid(
         table: Arc<HalfDiffTable>,
         interpolation: Interpolation,
@@ -142,6 +168,7 @@ impl Surface {
         match &self.form {
             Form3::Grid(grid) => grid,
             Form3::Model(model, _) => &*model.brdf,
+            Form3::Rgl(brdf, ..) => brdf,
         }
     }
 
@@ -167,6 +194,14 @@ impl Surface {
                 let key = |_: &_| content_hash(text.as_bytes());
                 pair::pair(model.brdf, name, (key, cache))?
             }
+            (Form3::Rgl(brdf, sampler, _), SamplerName::Native) => {
+                let report = SamplerReport::new(SamplerName::Native, sampler.bytes());
+                (
+                    Box::new(Paired { brdf, sampler }) as Box<dyn Material<3>>,
+                    report,
+                )
+            }
+            (Form3::Rgl(brdf, _, key), _) => pair::pair(brdf, name, (|_: &_| key, cache))?,
             (Form3::Grid(grid), _) => pair::pair(grid, name, (pair::table_key, cache))?,
         };
         report.notes.splice(..0, self.notes);
@@ -182,19 +217,6 @@ fn srgb() -> Basis {
     Basis::Rgb(RgbSpace::srgb())
 }
 
-fn tabulated(brdf: &dyn Brdf<3>) -> HalfDiffTable {
-    let phi = if brdf.symmetry().reciprocal {
-        PhiDomain::Reciprocal
-    } else {
-        PhiDomain::Full
-    };
-    HalfDiffTable::from_fn(MERL_DIMS, phi, srgb(), |wi, wo, out| {
-        out.copy_from_slice(&brdf.eval(wi, wo));
-        Status::Measured
-    })
-}
-
-#[cfg(any())]
 fn from_plate(plate: &ThinPlate, notes: &mut Vec<String>) -> Result<HalfDiffTable, Error> {
     let matrix = plate.basis().to_linear_srgb();
     let plate = plate
@@ -213,7 +235,7 @@ fn from_plate(plate: &ThinPlate, notes: &mut Vec<String>) -> Result<HalfDiffTabl
 
 /// The older schemes have steps and ghosts of their own: the full MERL resolution keeps them visible.
 fn from_measured(measured: &dyn Measured) -> HalfDiffTable {
-    let matrix = vec![[1.0,0.0,0.0],[0.0,1.0,0.0],[0.0,0.0,1.0]]/*TMP*/;
+    let matrix = measured.basis().to_linear_srgb();
     HalfDiffTable::from_fn(MERL_DIMS, PhiDomain::Mirror, srgb(), |wi, wo, out| {
         let mut native = vec![0.0; matrix.len()];
         let status = measured.eval_native(wi, wo, &mut native);

@@ -67,8 +67,9 @@ fn indices(value: Property) -> Option<Vec<u32>> {
 pub(super) fn read(bytes: &[u8]) -> Result<Triangles, Error> {
     let broken = |e: ParseError| {
         let text = e.to_string();
-        let first = text.lines().next().unwrap_or_default().trim();
-        Error::invalid(format!("broken PLY file: {first}"))
+        let words: Vec<&str> = text.split_whitespace().collect();
+        let line: String = words.join(" ").chars().take(160).collect();
+        Error::invalid(format!("broken PLY file: {line}"))
     };
     let mut reader = Reader::new(bytes);
     let parser = Parser::<Element>::new();

@@ -103,10 +103,7 @@ fn broken_meshes_are_refused_in_one_line() {
             swap("format ascii 1.0", "format morse 1.0"),
             "broken PLY file: ",
         ),
-        (
-            swap("0 0 0\n", "inf 0 0\n"),
-            "expected finite coordinates, found [inf, 0, 0] in vertex 0",
-        ),
+        (swap("0 0 0\n", "inf 0 0\n"), "broken PLY file: Line 10: "),
         (swap("float x", "list uchar float x"), "broken PLY file: "),
     ];
     for (text, expected) in cases {
@@ -182,7 +179,7 @@ fn a_broken_cache_costs_time_and_a_note_but_nothing_else() {
     flipped[40] ^= 1;
     for (broken, why) in [
         (&flipped[..], "the checksum does not match"),
-        (&sound[..sound.len() - 1], "expected 116 bytes, found 115"),
+        (&sound[..sound.len() - 1], "expected 108 bytes, found 107"),
         (b"not a cache", "expected a file of this kind"),
         (b"", "expected a file of this kind"),
     ] {

@@ -29,34 +29,48 @@ fn the_white_furnace_shows_its_albedo_to_a_thousandth() {
 
 #[test]
 fn the_closed_form_scene_is_its_formula() {
-    let built = built("closed-form", &Overrides::default());
+    const N: usize = 24;
+    let built = built(
+        "closed-form",
+        &Overrides {
+            size: Some((N as u32, N as u32)),
+            spp: Some(2048),
+            ..Overrides::default()
+        },
+    );
     let picture = Picture::of_film(&film(&built)).unwrap();
     let variance = picture.variance.as_ref().unwrap();
     // the camera hangs 8 above the plane and looks straight down; x to the right, z down in the picture
     let half = 8.0 * 20.0_f64.to_radians().tan();
-    let (mut z_sum, mut count, mut worst) = (0.0, 0.0, 0.0_f64);
-    for y in 0..96 {
-        for x in 0..96 {
-            let at = |k: usize| ((k as f64 + 0.5) / 48.0 - 1.0) * half;
-            let d2 = at(x).powi(2) + at(y).powi(2);
-            // the light hides the plane around the middle: seen from 8 above, its rim reaches 0.68
-            if d2 < 0.9 {
-                continue;
-            }
-            let exact = 0.5 * 4.0 * 0.25 * 2.0 / (d2 + 4.0).powf(1.5);
-            let pixel = f64::from(picture.pixels[y * 96 + x][0]);
-            let error = f64::from(variance[y * 96 + x][0]).sqrt();
-            // a pixel averages a curved function: at most 2e-4 of it here
-            let difference = pixel - exact;
-            z_sum += difference;
-            count += 1.0;
-            worst = worst.max(difference.abs() / (error + 4e-4 * exact));
+    let at = |k: f64| (k * 2.0 / N as f64 - 1.0) * half;
+    let radiance = |d2: f64| 0.5 * 4.0 * 0.25 * 2.0 / (d2 + 4.0).powf(1.5);
+    let (mut count, mut zz, mut sum, mut sum_of_variance) = (0.0, 0.0, 0.0, 0.0);
+    for (x, y) in (0..N * N).map(|k| (k % N, k / N)) {
+        // the light hides the plane around the middle: seen from 8 above, its rim reaches 0.67
+        if at(x as f64 + 0.5).hypot(at(y as f64 + 0.5)) < 0.9 {
+            continue;
         }
+        // the mean over the pixel by 8 x 8 midpoints, whose own error is below 1e-4 of it
+        let inside = |k: usize, i: usize| at(k as f64 + (i as f64 + 0.5) / 8.0).powi(2);
+        let exact = (0..64)
+            .map(|i| radiance(inside(x, i % 8) + inside(y, i / 8)) / 64.0)
+            .sum::<f64>();
+        let difference = f64::from(picture.pixels[y * N + x][0]) - exact;
+        let v = f64::from(variance[y * N + x][0]);
+        count += 1.0;
+        zz += difference * difference / v;
+        sum += difference;
+        sum_of_variance += v;
     }
-    // 8000 pixels: t with 7 degrees of freedom beyond 12 has probability 6e-6 each, 5 % in all
-    assert!(worst < 12.0, "worst pixel {worst} standard errors");
-    let mean: f64 = z_sum / count;
-    assert!(mean.abs() < 2e-5, "mean difference {mean}");
+    // Student's t with 7 degrees of freedom has mean square 7/5 and, over 500 pixels, a standard error of
+    // that of 0.13
+    let mean_square: f64 = zz / count;
+    assert!((0.9..2.0).contains(&mean_square), "mean z^2 {mean_square}");
+    let z: f64 = sum / f64::sqrt(sum_of_variance);
+    assert!(
+        z.abs() < 4.0,
+        "the whole picture is off by {z} standard errors"
+    );
 }
 
 #[test]
