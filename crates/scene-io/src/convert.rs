@@ -40,7 +40,7 @@ pub fn convert(input: &Path, output: &Path, options: &MaterialOptions) -> Result
     }
     let mut lost = Vec::new();
     let bytes = match target {
-        "merl" => to_merl(&linear_srgb_table(&loaded)?, &mut lost)?,
+        "merl" => to_merl(&*linear_srgb_table(&loaded)?, &mut lost)?,
         "astm" => to_astm(&loaded, &mut lost)?,
         _ => to_pbrt_text(&loaded, &mut lost)?,
     };
