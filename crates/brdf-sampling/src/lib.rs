@@ -1,1 +1,32 @@
-//! Direction samplers built from any Brdf.
+//! Direction samplers built from any reflectance: f(wi, wo) as one number is all they see.
+//!
+//! Every sampler draws `wi` for a known `wo` and knows its own density exactly, for every `wo` and not only
+//! at the directions it has tables for. Formulas: docs/sampling.md.
+//!
+//! - [`Uniform`], [`Cosine`]: no table, the yardsticks.
+//! - [`Rejection`]: the thesis' method; no table but maxima.
+//! - [`Inversion`]: large tables, plain.
+//!
+//! Not here: lights, multiple importance sampling, files.
+
+mod chart;
+mod cosine;
+mod hvt;
+mod inversion;
+mod known_grid;
+mod pseudo_log;
+mod rejection;
+mod rejection_cache;
+mod slice_measure;
+mod target;
+mod uniform;
+mod variance;
+
+pub use cosine::Cosine;
+pub use hvt::{Hvt, HvtOptions, MAX_B, Preset};
+pub use inversion::{Inversion, InversionOptions};
+pub use rejection::{BoundAudit, Rejection, RejectionOptions, SharedTarget};
+pub use rejection_cache::{CacheError, Proposal, RejectionCache};
+pub use target::Target;
+pub use uniform::Uniform;
+pub use variance::{RelativeVariance, relative_variance};

@@ -70,7 +70,6 @@ pub struct Estimate {
 /// The integral of `f` over the whole `domain` to about relative `tolerance`, starting from 8 x 16 pieces.
 pub fn adaptive(domain: Domain, f: impl Fn([f64; 3]) -> f64, tolerance: f64) -> Estimate {
     let mut total = Estimate::default();
-    let mut variance = 0.0;
     let tolerance = Tolerance {
         relative: tolerance,
         absolute: 0.0,
@@ -78,9 +77,8 @@ pub fn adaptive(domain: Domain, f: impl Fn([f64; 3]) -> f64, tolerance: f64) -> 
     for piece in grid(domain.chart(), [8, 16]) {
         let e = over_rect(domain, &f, piece, tolerance);
         total.value += e.value;
-        variance += e.error * e.error;
+        total.error += e.error;
     }
-    total.error = variance.sqrt();
     total
 }
 
@@ -100,7 +98,9 @@ pub(crate) fn grid(rect: Rect, n: [usize; 2]) -> impl Iterator<Item = Rect> {
 }
 
 /// Rule evaluations [`over_rect`] may spend on one rectangle before it settles for the error it has.
-const BUDGET: usize = 4_000;
+const BUDGET: usize = 8_000;
+/// Halvings done before an estimate is trusted.
+const MIN_DEPTH: usize = 2;
 
 /// When refinement may stop: at a change of `relative` times the integral so far, or of `absolute`.
 #[derive(Clone, Copy)]
@@ -109,49 +109,61 @@ pub(crate) struct Tolerance {
     pub(crate) absolute: f64,
 }
 
-/// The integral of `f` over a piece of the chart, by quadtree refinement of the 3 x 3 Gauss rule until no
-/// piece changes by more than the tolerance.
+/// The integral of `f` over a piece of the chart: it is halved along the axis that changes the estimate more,
+/// until no halving changes it by more than the tolerance, which shrinks with the pieces.
 pub(crate) fn over_rect(
     domain: Domain,
     f: &impl Fn([f64; 3]) -> f64,
     rect: Rect,
     tolerance: Tolerance,
 ) -> Estimate {
-    let first = gauss(domain, f, &rect);
+    let first = lobatto(domain, f, &rect);
     let mut stack = vec![(rect, first, 0)];
     let (mut scale, mut spent) = (first.abs(), 1);
     let mut done = Estimate::default();
-    let mut variance = 0.0;
     while let Some((rect, coarse, depth)) = stack.pop() {
-        let [low, high] = rect.halves(0);
-        let quarters = [low, high].map(|half| half.halves(1)).concat();
-        let values: Vec<f64> = quarters.iter().map(|q| gauss(domain, f, q)).collect();
+        let splits = [0, 1].map(|axis| {
+            let halves = rect.halves(axis);
+            let values = halves.map(|half| lobatto(domain, f, &half));
+            let fine = values[0] + values[1];
+            (halves, values, fine, (fine - coarse).abs())
+        });
         spent += 4;
-        let fine: f64 = values.iter().sum();
-        let change = fine - coarse;
+        // Alternating axes on a tie: a function may look constant at first.
+        let [along, across] = [&splits[depth % 2], &splits[1 - depth % 2]];
+        let (halves, values, fine, change) = if across.3 > along.3 { across } else { along };
         // What the refinement finds raises the scale: a peak missed at first is not refined forever.
         scale = f64::max(scale, done.value.abs() + fine.abs());
-        let limit = f64::max(tolerance.relative * scale, tolerance.absolute);
+        // An edge crosses about 2^(depth/2) pieces, whose errors partly cancel: this keeps their sum bounded.
+        let share = (-0.25 * depth as f64).exp2();
+        let limit = share * f64::max(tolerance.relative * scale, tolerance.absolute);
         // NaN will not improve, either.
-        let unsettled = depth == 0 || change.abs() > limit;
+        let unsettled = depth < MIN_DEPTH || *change > limit;
         if !unsettled || spent > BUDGET {
             done.value += fine;
-            variance += change * change;
+            done.error += change;
         } else {
-            let next = quarters.into_iter().zip(values);
-            stack.extend(next.map(|(q, v)| (q, v, depth + 1)));
+            stack.extend((0..2).map(|k| (halves[k], values[k], depth + 1)));
         }
     }
-    done.error = variance.sqrt();
     done
 }
 
-/// The 3 x 3 Gauss-Legendre rule on one rectangle.
-fn gauss(domain: Domain, f: &impl Fn([f64; 3]) -> f64, rect: &Rect) -> f64 {
-    const X: f64 = 0.774_596_669_241_483_4; // sqrt(3/5)
-    const NODES: [(f64, f64); 3] = [(-X, 5.0 / 18.0), (0.0, 8.0 / 18.0), (X, 5.0 / 18.0)];
+/// The 4 x 4 Gauss-Lobatto rule on one rectangle. It looks at the borders, too: an edge that runs close to
+/// one is not overlooked.
+fn lobatto(domain: Domain, f: &impl Fn([f64; 3]) -> f64, rect: &Rect) -> f64 {
+    const X: f64 = 0.447_213_595_499_958; // 1 / sqrt(5)
+    const NODES: [(f64, f64); 4] = [
+        (-1.0, 1.0 / 12.0),
+        (-X, 5.0 / 12.0),
+        (X, 5.0 / 12.0),
+        (1.0, 1.0 / 12.0),
+    ];
     let size = rect.size();
-    let at = |axis: usize, x: f64| rect.min[axis] + 0.5 * (1.0 + x) * size[axis];
+    let at = |axis: usize, x: f64| {
+        let t = 0.5 * (1.0 + x);
+        rect.min[axis] * (1.0 - t) + rect.max[axis] * t
+    };
     let mut sum = 0.0;
     for (x, wx) in NODES {
         for (y, wy) in NODES {

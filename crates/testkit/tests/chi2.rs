@@ -168,3 +168,41 @@ fn disk_and_square() {
         assert!(report.ok, "{domain:?}: {report}");
     }
 }
+
+#[test]
+fn accepts_densities_with_edges() {
+    // cones whose edge lies anywhere among the cells, and one across them
+    for angle in [0.01_f64, 0.78, 0.79, 1.1] {
+        let depth = 1.0 - angle.cos();
+        let config = Config {
+            tests: 5,
+            ..Config::default()
+        };
+        let sample = |r: &mut Rng| {
+            let [u, v] = r.uniform2();
+            let z = 1.0 - u * depth;
+            let (radius, (s, c)) = ((1.0 - z * z).sqrt(), (2.0 * PI * v).sin_cos());
+            Some([radius * c, radius * s, z])
+        };
+        let pdf = |p: [f64; 3]| {
+            if 1.0 - p[2] <= depth {
+                0.5 / PI / depth
+            } else {
+                0.0
+            }
+        };
+        let report = test(&config, sample, pdf);
+        assert!(report.ok, "{angle}: {report}");
+    }
+    let half = |r: &mut Rng| Some(cosine(r)).filter(|p| p[0] + 0.7 * p[1] < 0.3 * p[2]);
+    let pdf = |p: [f64; 3]| {
+        let inside = p[0] + 0.7 * p[1] < 0.3 * p[2];
+        if inside { p[2].max(0.0) / PI } else { 0.0 }
+    };
+    let config = Config {
+        tests: 5,
+        ..Config::default()
+    };
+    let report = test(&config, half, pdf);
+    assert!(report.ok, "{report}");
+}

@@ -42,7 +42,8 @@ fn at_depth(depth: f64, turn: f64) -> DVec3 {
 #[inline]
 fn depth(w: DVec3) -> f64 {
     if w.z > 0.0 {
-        (w.x * w.x + w.y * w.y) / (1.0 + w.z)
+        // At the horizon rounding must not carry it below: callers take ln(1 - depth).
+        ((w.x * w.x + w.y * w.y) / (1.0 + w.z)).min(1.0)
     } else {
         1.0 - w.z
     }

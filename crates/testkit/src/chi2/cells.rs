@@ -9,6 +9,8 @@ const START: [usize; 2] = [4, 8];
 const CROWDED: f64 = 1.0 / 256.0;
 /// Halvings at most: a lobe of 1e-7 of the chart's width along both axes.
 const MAX_DEPTH: usize = 46;
+/// Points that show where in a cell the density lies.
+const TELLING: usize = 8;
 
 /// A node of the tree below one grid cell.
 enum Node {
@@ -54,12 +56,13 @@ impl Cells {
     }
 
     fn split(&mut self, rect: Rect, points: Vec<[f64; 2]>, crowd: usize, depth: usize) -> usize {
-        if points.len() <= crowd || depth == MAX_DEPTH {
+        let narrow = narrow_axis(&rect, &points);
+        if depth == MAX_DEPTH || narrow.is_none() && points.len() <= crowd {
             self.rects.push(rect);
             self.nodes.push(Node::Leaf(self.rects.len() - 1));
             return self.nodes.len() - 1;
         }
-        let axis = depth % 2;
+        let axis = narrow.unwrap_or(depth % 2);
         let [low, high] = rect.halves(axis);
         let at = high.min[axis];
         let (below, above) = points.into_iter().partition(|p| p[axis] < at);
@@ -105,4 +108,17 @@ impl Cells {
     pub(super) fn counts(&self) -> &[usize] {
         &self.counts
     }
+}
+
+/// The axis along which `points` fill less than a quarter of `rect`, if one does: halving it hugs a lobe that
+/// quadrature over the whole cell would overlook.
+fn narrow_axis(rect: &Rect, points: &[[f64; 2]]) -> Option<usize> {
+    let size = rect.size();
+    let share = |axis: usize| {
+        let all = points.iter().map(|p| p[axis]);
+        let low = all.clone().fold(f64::INFINITY, f64::min);
+        (all.fold(f64::NEG_INFINITY, f64::max) - low) / size[axis]
+    };
+    let axis = usize::from(share(1) < share(0));
+    (points.len() >= TELLING && share(axis) < 0.25).then_some(axis)
 }

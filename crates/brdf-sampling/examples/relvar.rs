@@ -1,0 +1,178 @@
+//! Relative variance, cost and size of the samplers on MERL files.
+//!
+//! `cargo run --release -p brdf-sampling --example relvar -- FILE.binary ...`
+#![expect(clippy::print_stdout, reason = "a program")]
+#![expect(clippy::disallowed_methods, reason = "reads the files it is told")]
+
+use brdf::{DirectionSampler, Measured, direction};
+use brdf_formats::{MERL_SCALE, MerlFile};
+use brdf_sampling::{Hvt, HvtOptions, Preset, Target, relative_variance};
+use brdf_table::{CellPolicy, Gridded, Interpolation, PhiDomain, TableBuilder};
+use glam::{DVec2, DVec3};
+use spectrum::{Basis, RgbSpace};
+use std::error::Error;
+use std::hint::black_box;
+use std::sync::Arc;
+use std::time::Instant;
+
+const SHOWN_DEG: [f64; 7] = [0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 85.0];
+const SAMPLES: usize = 20_000;
+
+/// 24 viewers between 1 and 86 degrees, on no grid.
+fn off_grid(k: usize) -> f64 {
+    1.37 + 3.61 * k as f64
+}
+
+fn luminance(c: &[f64]) -> f64 {
+    0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]
+}
+
+fn load(path: &str) -> Result<Gridded, Box<dyn Error>> {
+    let file = MerlFile::from_bytes(std::fs::read(path)?)?;
+    let dims = file.dims().map(|n| n as usize);
+    let basis = Basis::Rgb(RgbSpace::srgb());
+    let mut builder = TableBuilder::new(dims, PhiDomain::Reciprocal, basis, MERL_SCALE.to_vec())?;
+    let cells = dims.iter().product::<usize>();
+    for channel in 0..3 {
+        let plane: Vec<f64> = (0..cells).map(|k| file.value(channel, k)).collect();
+        builder.push(&plane)?;
+    }
+    let (table, _) = builder.finish(CellPolicy::AnyNegative)?;
+    Ok(Gridded {
+        table: Arc::new(table),
+        interpolation: Interpolation::Linear,
+    })
+}
+
+fn options(name: &str) -> Option<HvtOptions> {
+    if let Some(p) = Preset::ALL
+        .iter()
+        .find(|p| format!("{p:?}").eq_ignore_ascii_case(name))
+    {
+        return Some(p.options());
+    }
+    // N_THETAxN_AxN_B[xNEWTON]
+    let n: Vec<usize> = name.split('x').map_while(|s| s.parse().ok()).collect();
+    let mut o = Preset::Default.options();
+    [o.n_theta, o.n_a, o.n_b] = *n.first_chunk::<3>()?;
+    o.newton = n.get(3).copied().unwrap_or(o.newton);
+    o.r0 = n.get(4).map(|r| *r as f64 * 1e-4);
+    Some(o)
+}
+
+struct Row {
+    shown: Vec<f64>,
+    mean: f64,
+    worst: f64,
+    max_weight: f64,
+    build_ms: f64,
+    sample_ns: f64,
+    pdf_ns: f64,
+}
+
+fn measure(target: Target<'_>, options: HvtOptions) -> (Hvt, Row) {
+    let start = Instant::now();
+    let sampler = Hvt::new(target, options);
+    let build_ms = start.elapsed().as_secs_f64() * 1e3;
+    let at = |deg: f64| relative_variance(target, &sampler, deg, SAMPLES);
+    let shown = SHOWN_DEG.iter().map(|&d| at(d).value).collect();
+    let all: Vec<_> = (0..24).map(|k| at(off_grid(k))).collect();
+    let (sample_ns, pdf_ns) = cost(&sampler);
+    let row = Row {
+        shown,
+        mean: all.iter().map(|v| v.value).sum::<f64>() / 24.0,
+        worst: all.iter().fold(0.0, |m, v| v.value.max(m)),
+        max_weight: all.iter().fold(0.0, |m, v| v.max_weight.max(m)),
+        build_ms,
+        sample_ns,
+        pdf_ns,
+    };
+    (sampler, row)
+}
+
+/// Nanoseconds of sample and pdf.
+fn cost(sampler: &impl DirectionSampler) -> (f64, f64) {
+    let mut rng = sampling::Rng::new(5);
+    let inputs: Vec<(DVec3, DVec2)> = (0..4_000)
+        .map(|_| {
+            (
+                direction(1.5 * rng.uniform(), 6.0 * rng.uniform()),
+                rng.uniform2(),
+            )
+        })
+        .collect();
+    let best = |f: &dyn Fn()| {
+        let mut best = f64::INFINITY;
+        for _ in 0..40 {
+            let start = Instant::now();
+            f();
+            best = best.min(start.elapsed().as_secs_f64() * 1e9 / inputs.len() as f64);
+        }
+        best
+    };
+    let sample_ns = best(&|| {
+        for (wo, u) in &inputs {
+            black_box(sampler.sample(*wo, *u));
+        }
+    });
+    let wi: Vec<DVec3> = inputs
+        .iter()
+        .filter_map(|(wo, u)| sampler.sample(*wo, *u).map(|s| s.wi))
+        .collect();
+    let pdf_ns = best(&|| {
+        for ((wo, _), wi) in inputs.iter().zip(&wi) {
+            black_box(sampler.pdf(*wi, *wo));
+        }
+    });
+    (sample_ns, pdf_ns)
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut names = vec!["default".to_string()];
+    let mut files = Vec::new();
+    for arg in std::env::args().skip(1) {
+        match arg.strip_prefix("--sizes=") {
+            Some(list) => names = list.split(',').map(String::from).collect(),
+            None => files.push(arg),
+        }
+    }
+    let (sample_ns, pdf_ns) = cost(&brdf_sampling::Cosine);
+    println!("for comparison, cosine: {sample_ns:.1} ns sample, {pdf_ns:.1} ns pdf");
+    for name in &names {
+        let options = options(name).ok_or("sizes: preset or AxBxC")?;
+        let mut means = Vec::new();
+        println!(
+            "## {name}\nmaterial | bytes | build ms | ns sample | ns pdf | r0 | {SHOWN_DEG:?} | mean | worst angle | max w | predicted"
+        );
+        for path in &files {
+            let table = load(path)?;
+            let f = |wi: DVec3, wo: DVec3| {
+                let mut rgb = [0.0; 3];
+                table.eval_native(wi, wo, &mut rgb);
+                luminance(&rgb)
+            };
+            let (sampler, row) = measure(Target::new(&f), options);
+            let shown: Vec<String> = row.shown.iter().map(|v| format!("{v:.5}")).collect();
+            let stem = path.rsplit('/').next().unwrap_or(path);
+            println!(
+                "{stem:30} | {} | {:.0} | {:.0} | {:.0} | {:.4} | {} | {:.5} | {:.5} | {:.2} | {:.5}",
+                sampler.bytes(),
+                row.build_ms,
+                row.sample_ns,
+                row.pdf_ns,
+                sampler.scale(),
+                shown.join(" "),
+                row.mean,
+                row.worst,
+                row.max_weight,
+                sampler.predicted_variance()
+            );
+            means.push(row.mean);
+        }
+        means.sort_by(f64::total_cmp);
+        if let (Some(median), Some(worst)) = (means.get(means.len() / 2), means.last()) {
+            println!("median {median:.5}  worst {worst:.5}");
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,41 @@
+//! Directions in proportion to the cosine: exact for a Lambertian surface.
+
+use brdf::{DirectionSample, DirectionSampler};
+use glam::{DVec2, DVec3};
+use std::f64::consts::{FRAC_1_PI, TAU};
+
+/// pdf = cos theta_i / pi.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Cosine;
+
+impl DirectionSampler for Cosine {
+    fn sample(&self, wo: DVec3, u: DVec2) -> Option<DirectionSample> {
+        (wo.z > 0.0).then(|| {
+            let wi = cosine_hemisphere(u);
+            DirectionSample {
+                wi,
+                pdf: cosine_pdf(wi),
+            }
+        })
+    }
+
+    fn pdf(&self, wi: DVec3, wo: DVec3) -> f64 {
+        if wo.z > 0.0 { cosine_pdf(wi) } else { 0.0 }
+    }
+}
+
+/// The lowest cosine a sampler returns: keeps densities proportional to it positive.
+const MIN_COS: f64 = 1e-12;
+
+/// Malley's method in polar form: sin^2 theta = u.x, phi = 2 pi u.y.
+pub(crate) fn cosine_hemisphere(u: DVec2) -> DVec3 {
+    let s = u.x.max(0.0).sqrt();
+    let (sp, cp) = (TAU * u.y).sin_cos();
+    DVec3::new(s * cp, s * sp, (1.0 - u.x).max(0.0).sqrt().max(MIN_COS))
+}
+
+/// cos theta_i / pi above the horizon.
+#[inline]
+pub(crate) fn cosine_pdf(wi: DVec3) -> f64 {
+    wi.z.max(0.0) * FRAC_1_PI
+}

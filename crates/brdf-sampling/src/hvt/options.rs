@@ -1,0 +1,77 @@
+//! Sizes of a half-vector table, by name.
+
+use super::optimise::Effort;
+use super::shape::Shape;
+
+/// Named sizes; bytes are those of the finished table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Preset {
+    /// 6 x 12 x 8 nodes, 1 KB.
+    Tiny,
+    /// 12 x 36 x 16 nodes, 9 KB.
+    #[default]
+    Default,
+    /// 24 x 64 x 24 nodes, 43 KB.
+    Fine,
+    /// 32 x 96 x 32 nodes, 111 KB.
+    Reference,
+}
+
+/// How a [`super::Hvt`] is built.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HvtOptions {
+    /// Slices of the viewer's elevation, at least 2.
+    pub n_theta: usize,
+    /// Nodes along the radial half-vector coordinate, at least 3.
+    pub n_a: usize,
+    /// Nodes along its azimuth, 3 to [`MAX_B`]; multiples of 8 are fastest.
+    pub n_b: usize,
+    /// Radial scale of the chart in radians of theta_h; `None` tries several and keeps the best.
+    pub r0: Option<f64>,
+    /// Newton steps of the optimisation.
+    pub newton: usize,
+}
+
+/// Most nodes across.
+pub const MAX_B: usize = 32;
+
+impl Preset {
+    /// All presets, smallest first.
+    pub const ALL: [Self; 4] = [Self::Tiny, Self::Default, Self::Fine, Self::Reference];
+
+    /// The sizes.
+    #[must_use]
+    pub fn options(self) -> HvtOptions {
+        let (n_theta, n_a, n_b) = match self {
+            Self::Tiny => (6, 12, 8),
+            Self::Default => (12, 36, 16),
+            Self::Fine => (24, 64, 24),
+            Self::Reference => (32, 96, 32),
+        };
+        HvtOptions {
+            n_theta,
+            n_a,
+            n_b,
+            r0: None,
+            newton: 3,
+        }
+    }
+}
+
+impl HvtOptions {
+    pub(crate) fn shape(&self) -> Shape {
+        Shape {
+            n_theta: self.n_theta.clamp(2, 1 << 10),
+            n_a: self.n_a.clamp(3, 1 << 12),
+            n_b: self.n_b.clamp(3, MAX_B),
+        }
+    }
+
+    pub(crate) fn effort(&self) -> Effort {
+        Effort {
+            multiplicative: 2,
+            newton: self.newton,
+            gradients: 8,
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! The finished table: one byte a node, and what inversion needs.
+
+use super::minifloat::{MAX, decode, encode};
+use super::optimise::normalise;
+use super::options::MAX_B;
+use super::problem::Unknowns;
+use super::shape::Shape;
+
+/// Quantised densities of all slices. The density of slice k on the unit square is scale_k times the bilinear
+/// interpolant of the decoded nodes and has mass 1 - lobe_k.
+#[derive(Clone, Debug)]
+pub(crate) struct Table {
+    pub(crate) shape: Shape,
+    nodes: Vec<u8>,
+    scale: Vec<f32>,
+    pub(crate) lobe: Vec<f32>,
+    /// Mass of the slice below row i, f32, `n_a` entries a slice.
+    below: Vec<f32>,
+}
+
+/// A place between two slices.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place {
+    k: usize,
+    t: f32,
+    /// Factors of the decoded nodes of either slice: (1 - t) scale_k, t scale_{k+1}.
+    factor: [f32; 2],
+}
+
+/// A blended row of nodes; entries beyond the row are 0.
+type Row = [f32; MAX_B];
+
+impl Table {
+    /// Rounds node values to bytes and restores the mass of every slice.
+    pub(crate) fn new(shape: Shape, mut x: Unknowns) -> Self {
+        normalise(shape, &mut x);
+        let n = shape.slice();
+        let mut table = Self {
+            shape,
+            nodes: Vec::with_capacity(shape.nodes()),
+            scale: Vec::with_capacity(shape.n_theta),
+            lobe: x.lobe.iter().map(|l| *l as f32).collect(),
+            below: Vec::with_capacity(shape.n_theta * shape.n_a),
+        };
+        for (k, values) in x.nodes.chunks_exact(n).enumerate() {
+            let unit = values.iter().fold(f64::MIN_POSITIVE, |m, v| m.max(*v)) / MAX;
+            let bytes: Vec<u8> = values.iter().map(|v| encode(v / unit)).collect();
+            let decoded: Vec<f64> = bytes.iter().map(|q| f64::from(decode(*q))).collect();
+            let scale = (1.0 - f64::from(table.lobe[k])) / shape.mass(&decoded);
+            table.nodes.extend(bytes);
+            table.scale.push(scale as f32);
+            let mut sum = 0.0;
+            for i in 0..shape.n_a {
+                table.below.push(sum as f32);
+                let row = |i: usize| -> f64 {
+                    let at = |j: usize| decoded[i * shape.n_b + j];
+                    let ends = 0.5 * (at(0) + at(shape.n_b - 1));
+                    (0..shape.n_b).map(at).sum::<f64>() - ends
+                };
+                if i + 1 < shape.n_a {
+                    sum += 0.5 * scale * (row(i) + row(i + 1)) / shape.cells() as f64;
+                }
+            }
+        }
+        table
+    }
+
+    pub(crate) fn bytes(&self) -> usize {
+        self.nodes.len()
+            + size_of::<f32>() * (self.scale.len() + self.lobe.len() + self.below.len())
+    }
+
+    /// The blend at slice coordinate `x` in [0, `n_theta` - 1].
+    #[inline]
+    pub(crate) fn place_at(&self, x: f32) -> Place {
+        let k = (x as usize).min(self.shape.n_theta - 2);
+        let t = x - k as f32;
+        Place {
+            k,
+            t,
+            factor: [(1.0 - t) * self.scale[k], t * self.scale[k + 1]],
+        }
+    }
+
+    /// Weight of the cosine lobe.
+    #[inline]
+    pub(crate) fn lobe_at(&self, p: Place) -> f32 {
+        (1.0 - p.t) * self.lobe[p.k] + p.t * self.lobe[p.k + 1]
+    }
+
+    /// The bilinear density at (a, b) in [0, 1]^2.
+    #[inline]
+    pub(crate) fn density(&self, p: Place, a: f32, b: f32) -> f32 {
+        let (i, x) = split(a, self.shape.n_a);
+        let (j, y) = split(b, self.shape.n_b);
+        let (nb, n) = (self.shape.n_b, self.shape.slice());
+        let corner = |slice: usize| {
+            let at = slice * n + i * nb + j;
+            // one bounds check for the nodes from here to the next row
+            let q = &self.nodes[at..at + nb + 2];
+            let low = decode(q[0]) + y * (decode(q[1]) - decode(q[0]));
+            let high = decode(q[nb]) + y * (decode(q[nb + 1]) - decode(q[nb]));
+            low + x * (high - low)
+        };
+        p.factor[0] * corner(p.k) + p.factor[1] * corner(p.k + 1)
+    }
+
+    /// The point whose marginal mass is `u` of a and whose conditional mass fraction is `v` of b; `u` in [0, 1 -
+    /// lobe).
+    #[inline]
+    pub(crate) fn invert(&self, p: Place, u: f32, v: f32) -> (f32, f32) {
+        let (i, fraction) = self.row_of(p, u);
+        let (low, high) = (self.row(p, i), self.row(p, i + 1));
+        let nb = self.shape.n_b;
+        let mass = |r: &Row| r[..nb].iter().sum::<f32>() - 0.5 * (r[0] + r[nb - 1]);
+        let x = linear(mass(&low), mass(&high), fraction);
+        let mut row = [0.0; MAX_B];
+        for ((r, l), h) in row.iter_mut().zip(&low).zip(&high) {
+            *r = l + x * (h - l);
+        }
+        let (j, y) = column(&row[..nb], v);
+        (
+            (i as f32 + x) / (self.shape.n_a - 1) as f32,
+            (j as f32 + y) / (nb - 1) as f32,
+        )
+    }
+
+    /// The interval of rows in which the blended marginal reaches `u`, and the fraction of its mass.
+    #[inline]
+    fn row_of(&self, p: Place, u: f32) -> (usize, f32) {
+        let na = self.shape.n_a;
+        let (low, high) = (
+            &self.below[p.k * na..][..na],
+            &self.below[(p.k + 1) * na..][..na],
+        );
+        let below = |i: usize| low[i] + p.t * (high[i] - low[i]);
+        let (mut first, mut len) = (0, na - 1);
+        while len > 1 {
+            let half = len / 2;
+            first = if below(first + half) <= u {
+                first + half
+            } else {
+                first
+            };
+            len -= half;
+        }
+        let (l, h) = (below(first), below(first + 1));
+        (first, ((u - l) / (h - l)).clamp(0.0, 1.0))
+    }
+
+    #[inline]
+    fn row(&self, p: Place, i: usize) -> Row {
+        let (nb, n) = (self.shape.n_b, self.shape.slice());
+        let low = &self.nodes[p.k * n + i * nb..][..nb];
+        let high = &self.nodes[(p.k + 1) * n + i * nb..][..nb];
+        let mut row = [0.0; MAX_B];
+        for (r, (a, b)) in row.iter_mut().zip(low.iter().zip(high)) {
+            *r = p.factor[0] * decode(*a) + p.factor[1] * decode(*b);
+        }
+        row
+    }
+}
+
+/// The interval of `x` in [0, 1] among `n` nodes, and where in it.
+#[inline]
+fn split(x: f32, n: usize) -> (usize, f32) {
+    let x = x * (n - 1) as f32;
+    let i = (x as usize).min(n - 2);
+    (i, x - i as f32)
+}
+
+/// The point of [0, 1] at which a density linear from `r0` to `r1` holds the fraction `y` of its mass. The
+/// quadratic is solved in the form without cancellation.
+#[inline]
+fn linear(r0: f32, r1: f32, y: f32) -> f32 {
+    let y = y * (r0 + r1);
+    (y / (r0 + (r0 * r0 + (r1 - r0) * y).max(0.0).sqrt())).min(1.0)
+}
+
+/// The interval in which the trapezoid sums of `row` reach the fraction `v`, and the place in it.
+#[inline]
+fn column(row: &[f32], v: f32) -> (usize, f32) {
+    let last = row.len() - 1;
+    let total = row.iter().sum::<f32>() - 0.5 * (row[0] + row[last]);
+    let target = total * v;
+    let (mut sum, mut j) = (0.0, 0);
+    let mut cell = 0.5 * (row[0] + row[1]);
+    while j + 1 < last && sum + cell <= target {
+        sum += cell;
+        j += 1;
+        cell = 0.5 * (row[j] + row[j + 1]);
+    }
+    let y = ((target - sum) / cell).clamp(0.0, 1.0);
+    (j, linear(row[j], row[j + 1], y))
+}

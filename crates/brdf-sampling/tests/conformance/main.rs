@@ -1,0 +1,211 @@
+//! Every sampler against every target: density, agreement of sample and pdf, support; and proof that a wrong
+//! sampler is found out.
+
+mod samplers;
+mod targets;
+mod wrong;
+
+use brdf::{DirectionSampler, direction};
+use glam::{DVec2, DVec3};
+use samplers::{ALL, Entry};
+use targets::Case;
+use testkit::chi2;
+
+/// Viewers: normal, between slices, close to grazing, and below the horizon of nobody.
+const THETA_DEG: [f64; 4] = [0.0, 23.7, 61.3, 88.0];
+
+fn viewer(theta_deg: f64) -> DVec3 {
+    direction(theta_deg.to_radians(), 0.9)
+}
+
+pub(crate) fn chi_square(
+    sampler: &dyn DirectionSampler,
+    wo: DVec3,
+    samples: usize,
+    tests: usize,
+) -> chi2::Chi2Report {
+    let config = chi2::Config {
+        samples,
+        tests,
+        ..chi2::Config::default()
+    };
+    chi2::test(
+        &config,
+        |rng| {
+            let s = sampler.sample(wo, DVec2::from(rng.uniform2()))?;
+            Some(s.wi.to_array())
+        },
+        |wi| sampler.pdf(DVec3::from(wi), wo),
+    )
+}
+
+fn run_chi_square(entries: &[&Entry], cases: &[Case], angles: &[f64], samples: usize) {
+    let tests = entries.len() * cases.len() * angles.len();
+    let mut failed = Vec::new();
+    for case in cases {
+        for entry in entries {
+            let sampler = (entry.build)(case);
+            for &theta in angles {
+                let report = chi_square(&*sampler, viewer(theta), samples, tests);
+                if !report.ok {
+                    failed.push(format!(
+                        "{} on {} at {theta}: {report}",
+                        entry.name, case.name
+                    ));
+                }
+            }
+        }
+    }
+    assert!(failed.is_empty(), "{}", failed.join("\n"));
+}
+
+#[test]
+fn chi_square_of_every_sampler() {
+    // the larger tables run in the slow tier: their cells take the time
+    let entries: Vec<&Entry> = ALL.iter().filter(|e| !e.name.contains("default")).collect();
+    run_chi_square(&entries, &targets::all(), &[33.3], 3_000);
+}
+
+#[test]
+fn slow_chi_square_of_every_sampler_at_every_angle() {
+    let entries: Vec<&Entry> = ALL.iter().collect();
+    run_chi_square(&entries, &targets::all(), &THETA_DEG, 30_000);
+}
+
+#[test]
+fn sample_and_pdf_agree_and_nothing_is_wasted() {
+    for case in targets::all() {
+        for entry in ALL {
+            let sampler = (entry.build)(&case);
+            for theta in THETA_DEG {
+                let name = format!("{} on {} at {theta}", entry.name, case.name);
+                agreement(&*sampler, viewer(theta), &name);
+            }
+        }
+    }
+}
+
+fn agreement(sampler: &dyn DirectionSampler, wo: DVec3, name: &str) {
+    let mut rng = testkit::Rng::new(3);
+    let n = 2_000;
+    let mut off = 0;
+    for _ in 0..n {
+        let s = sampler.sample(wo, DVec2::from(rng.uniform2()));
+        let s = s.unwrap_or_else(|| panic!("{name}: sample wasted"));
+        assert!(s.wi.z > 0.0, "{name}: below the horizon {}", s.wi);
+        assert!(
+            (s.wi.length() - 1.0).abs() < 1e-9,
+            "{name}: not unit {}",
+            s.wi
+        );
+        assert!(s.pdf > 0.0 && s.pdf.is_finite(), "{name}: pdf {}", s.pdf);
+        let pdf = sampler.pdf(s.wi, wo);
+        off += usize::from((pdf / s.pdf - 1.0).abs() > 1e-6);
+    }
+    // piecewise constant tables differ where rounding crosses a cell; that is below one in 10^6
+    assert!(off == 0, "{name}: {off} of {n} disagree by more than 1e-6");
+}
+
+#[test]
+fn support_covers_the_target() {
+    for case in targets::all() {
+        for entry in ALL {
+            let sampler = (entry.build)(&case);
+            let mut rng = testkit::Rng::new(4);
+            for _ in 0..2_000 {
+                let [x, y] = rng.uniform2();
+                let [z, w] = rng.uniform2();
+                let wi = direction((1.0 - x).acos(), 6.3 * y);
+                let wo = direction((1.0 - z).acos().min(1.57), 6.3 * w);
+                if (case.f)(wi, wo) > 0.0 {
+                    let pdf = sampler.pdf(wi, wo);
+                    assert!(
+                        pdf > 0.0 && pdf.is_finite(),
+                        "{} on {}: {pdf} at {wi}, {wo}",
+                        entry.name,
+                        case.name
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn below_the_horizon_there_is_nothing() {
+    let (up, down) = (direction(0.4, 0.2), direction(2.0, 0.1));
+    let level = DVec3::new(1.0, 0.0, 0.0);
+    for case in targets::all() {
+        for entry in ALL {
+            let sampler = (entry.build)(&case);
+            let u = DVec2::new(0.3, 0.6);
+            for wo in [down, level] {
+                assert!(sampler.sample(wo, u).is_none(), "{}: {wo}", entry.name);
+                assert!(sampler.pdf(up, wo) <= 0.0, "{}: {wo}", entry.name);
+            }
+            assert!(sampler.pdf(down, up) <= 0.0, "{}: below", entry.name);
+        }
+    }
+}
+
+#[test]
+fn extreme_arguments_do_not_panic() {
+    let views = [
+        DVec3::Z,
+        direction(1.5706, 1.0),
+        DVec3::new(1.0, 0.0, 1e-30),
+        DVec3::new(f64::NAN, 0.0, 0.5),
+    ];
+    for case in targets::all() {
+        for entry in ALL {
+            let sampler = (entry.build)(&case);
+            for wo in views {
+                for x in [0.0, 0.5, 1.0 - f64::EPSILON, 1.0] {
+                    for y in [0.0, 0.5, 1.0 - f64::EPSILON, 1.0] {
+                        let s = sampler.sample(wo, DVec2::new(x, y));
+                        if let Some(s) = s.filter(|_| wo.is_finite() && x < 1.0 && y < 1.0) {
+                            let name = entry.name;
+                            assert!(
+                                s.wi.is_finite() && s.pdf > 0.0,
+                                "{name} {wo} {x} {y}: {s:?}"
+                            );
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The names of all types in src that implement the trait.
+#[test]
+fn every_sampler_is_listed() {
+    let src = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut found = Vec::new();
+    collect(&src, &mut found);
+    assert!(found.len() >= 4, "the search itself is broken: {found:?}");
+    for name in found {
+        let listed = ALL.iter().any(|e| e.name.split(' ').next() == Some(&name));
+        assert!(listed, "{name} is not in the conformance list");
+    }
+}
+
+#[expect(clippy::disallowed_methods, reason = "reads the crate's own source")]
+fn collect(folder: &std::path::Path, found: &mut Vec<String>) {
+    for entry in std::fs::read_dir(folder).expect("the source folder") {
+        let path = entry.expect("a folder entry").path();
+        if path.is_dir() {
+            collect(&path, found);
+            continue;
+        }
+        let text = std::fs::read_to_string(&path).expect("a source file");
+        for line in text.lines() {
+            if let Some((_, name)) = line.split_once("DirectionSampler for ") {
+                let end = name
+                    .find(|c: char| !c.is_alphanumeric())
+                    .unwrap_or(name.len());
+                found.push(name[..end].to_string());
+            }
+        }
+    }
+}
