@@ -1,5 +1,7 @@
 //! Build and look-up times of half-difference tables.
 
+#![expect(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
+
 use brdf::{Brdf, LANES, Lanes3, Status};
 use brdf_table::{CellPolicy, GriddedN, HalfDiffTable, Interpolation, PhiDomain};
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};

@@ -1,5 +1,7 @@
 //! MERL files as tables: policies, round trips, and MERL stand-ins against the network they come from.
 
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use brdf::{HalfDiff, Status, direction};
 use brdf_formats::{MerlFile, MerlStream};
 use brdf_table::{CellPolicy, HalfDiffTable, Interpolation, PhiDomain};
@@ -190,8 +192,11 @@ fn read(path: &std::path::Path) -> Vec<u8> {
     std::fs::read(path).unwrap()
 }
 
-/// Names, golden values and weights of all materials; `None` without data.
-fn networks() -> Option<Vec<(String, Vec<f64>, Vec<f64>)>> {
+/// Name, golden values and weights.
+type Material = (String, Vec<f64>, Vec<f64>);
+
+/// All materials; `None` without data.
+fn networks() -> Option<Vec<Material>> {
     let dir = testkit::data_dir_or_skip()?.join("nbrdf");
     let text = |name| String::from_utf8(read(&dir.join(name))).unwrap();
     let weights: Vec<f64> = read(&dir.join("merl_nbrdf_weights.f32le"))
@@ -316,7 +321,8 @@ fn slow_tables_of_all_networks_agree_within_the_grid() {
     check(all.into_iter());
 }
 
-fn check(materials: impl Iterator<Item = (String, Vec<f64>, Vec<f64>)>) {
+#[expect(clippy::print_stdout, reason = "the measured errors are the point")]
+fn check(materials: impl Iterator<Item = Material>) {
     let basis = Basis::Rgb(RgbSpace::srgb());
     for (name, golden, weights) in materials {
         let net = Network(&weights);
