@@ -6,10 +6,13 @@
 //! - [`Uniform`], [`Cosine`]: no table, the yardsticks.
 //! - [`Rejection`]: the thesis' method; no table but maxima.
 //! - [`Inversion`]: large tables, plain.
+//! - [`Hvt`]: small tables of least variance, the default choice; [`ColourTarget`] serves several channels.
+//! - [`relative_variance`]: how noisy any of them is.
 //!
 //! Not here: lights, multiple importance sampling, files.
 
 mod chart;
+mod colour;
 mod cosine;
 mod hvt;
 mod inversion;
@@ -22,6 +25,7 @@ mod target;
 mod uniform;
 mod variance;
 
+pub use colour::ColourTarget;
 pub use cosine::Cosine;
 pub use hvt::{Hvt, HvtOptions, MAX_B, Preset};
 pub use inversion::{Inversion, InversionOptions};

@@ -90,6 +90,20 @@ impl Hvt {
         self.r0
     }
 
+    /// f(wi, wo) as the table has it, in 1/sr, for a directional albedo `albedo` at this viewer: albedo * pdf / cos.
+    ///
+    /// An approximation, not the target: evaluated this way every sample has the weight `albedo`, so luminance is
+    /// free of noise, at a systematic error whose relative square is the relative variance of the exact mode. It
+    /// is not reciprocal. 0 below the horizon.
+    #[must_use]
+    pub fn baked(&self, wi: DVec3, wo: DVec3, albedo: f64) -> f64 {
+        if wi.z > 0.0 {
+            albedo * self.pdf(wi, wo) / wi.z
+        } else {
+            0.0
+        }
+    }
+
     /// Density of a point of the chart per unit solid angle.
     #[inline]
     fn density(&self, view: &View, p: &ChartPoint) -> f64 {
@@ -175,7 +189,8 @@ impl DirectionSampler for Hvt {
             return 0.0;
         }
         let view = self.view(wo);
-        let p = view.chart.inverse(view.frame.to_local(wi));
+        let (h, xy2) = view.frame.half(wi, wo);
+        let p = view.chart.locate(h, xy2);
         self.density(&view, &p)
     }
 
