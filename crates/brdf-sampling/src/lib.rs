@@ -7,6 +7,7 @@
 //! - [`Rejection`]: the thesis' method; no table but maxima.
 //! - [`Inversion`]: large tables, plain.
 //! - [`Hvt`]: small tables of least variance, the default choice; [`ColourTarget`] serves several channels.
+//! - [`Dictionary`]: GGX lobes and a cosine, 0.8 KB or a single lobe.
 //! - [`relative_variance`]: how noisy any of them is.
 //!
 //! Not here: lights, multiple importance sampling, files.
@@ -14,6 +15,7 @@
 mod chart;
 mod colour;
 mod cosine;
+mod dictionary;
 mod hvt;
 mod inversion;
 mod known_grid;
@@ -27,6 +29,7 @@ mod variance;
 
 pub use colour::ColourTarget;
 pub use cosine::Cosine;
+pub use dictionary::Dictionary;
 pub use hvt::{Hvt, HvtOptions, MAX_B, Preset};
 pub use inversion::{Inversion, InversionOptions};
 pub use rejection::{BoundAudit, Rejection, RejectionOptions, SharedTarget};

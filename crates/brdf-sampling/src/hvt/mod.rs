@@ -28,7 +28,7 @@ use problem::{Problem, Unknowns};
 use rayon::prelude::*;
 use shape::Shape;
 use table::{Place, Table};
-use validation::Validation;
+pub(crate) use validation::Validation;
 
 /// Radial scales tried, radians.
 const SCALES: [f64; 9] = [0.0007, 0.002, 0.005, 0.012, 0.03, 0.07, 0.16, 0.4, 1.0];
@@ -40,6 +40,11 @@ pub struct Hvt {
     table: Table,
     r0: f64,
     predicted: f64,
+}
+
+/// The slice below a viewer among `n` slices even in tau, and the weight of the one above.
+pub(crate) fn slice_blend(cos_o: f64, n: usize) -> (usize, f64) {
+    slices::blend(slices::tau(cos_o.min(1.0)), n)
 }
 
 /// The viewer-dependent half of every query.
