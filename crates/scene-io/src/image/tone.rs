@@ -2,7 +2,7 @@
 
 use super::picture::Picture;
 use rayon::slice::ParallelSliceMut;
-use spectrum::LUMINANCE_SRGB;
+use spectrum::{LUMINANCE_SRGB, srgb_encode};
 
 /// One factor, then clamping to [0, 1], then the sRGB curve [Iec61966]: nothing that bends colours.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,12 +51,7 @@ fn luminance(p: [f32; 3]) -> f64 {
 /// One linear value in [0, 1] as an 8-bit sRGB code value; others are clamped, NaN is 0.
 #[must_use]
 pub fn to_srgb8(linear: f32) -> u8 {
-    let v = linear.clamp(0.0, 1.0);
-    let encoded = if v <= 0.003_130_8 {
-        12.92 * v
-    } else {
-        1.055 * v.powf(1.0 / 2.4) - 0.055
-    };
+    let encoded = srgb_encode(f64::from(linear.clamp(0.0, 1.0)));
     // `as` saturates and turns NaN into 0
     (encoded * 255.0 + 0.5) as u8
 }

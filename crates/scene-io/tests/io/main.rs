@@ -7,5 +7,6 @@ mod files;
 mod malformed_files;
 mod malformed_scenes;
 mod pictures;
+mod real_files;
 mod rendered;
 mod scenes;
