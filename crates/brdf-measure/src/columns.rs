@@ -2,7 +2,7 @@
 
 use brdf_formats::Channels;
 use glam::{DMat3, DVec3};
-use spectrum::{Basis, RgbSpace};
+use spectrum::Basis;
 
 use crate::MeasureError;
 
@@ -22,21 +22,29 @@ impl Columns {
                 found: n,
             });
         }
-        let unknown = || MeasureError::Columns(format!("{basis:?}"));
-        let to_xyz = rgb_to_xyz(&RgbSpace::srgb()).ok_or_else(unknown)?;
-        let (channels, matrix) = match basis {
-            Basis::Rgb(space) => {
-                let from_xyz = rgb_to_xyz(space).ok_or_else(unknown)?.inverse();
-                (Channels::Rgb, Some(from_xyz * to_xyz * space.white_level))
+        let channels = match basis {
+            Basis::Rgb(_) => Channels::Rgb,
+            Basis::Xyz => Channels::Xyz,
+            Basis::Bands(nm) => {
+                return Ok(Self {
+                    channels: Channels::Wavelengths(nm.clone()),
+                    matrix: None,
+                });
             }
-            Basis::Xyz => (Channels::Xyz, Some(to_xyz)),
-            Basis::Bands(nm) => (Channels::Wavelengths(nm.clone()), None),
-            _ => return Err(unknown()),
+            _ => return Err(MeasureError::Columns(format!("{basis:?}"))),
         };
-        if matrix.is_some_and(|m| !m.is_finite()) {
-            return Err(unknown());
+        // row per native channel = column of the matrix that makes sRGB of them
+        let rows = basis.to_linear_srgb();
+        let to_srgb = DMat3::from_cols_slice(rows.as_flattened());
+        let matrix = to_srgb.inverse();
+        if to_srgb.determinant().abs() > 0.0 && matrix.is_finite() {
+            Ok(Self {
+                channels,
+                matrix: Some(matrix),
+            })
+        } else {
+            Err(MeasureError::Columns(format!("{basis:?}")))
         }
-        Ok(Self { channels, matrix })
     }
 
     /// The column values of the channel values `f`.
@@ -50,48 +58,43 @@ impl Columns {
     }
 }
 
-/// Linear RGB to CIE XYZ with Y = 1 for white, from primaries and white point [Lindbloom2003]; `None` if the
-/// primaries lie on a line.
-fn rgb_to_xyz(space: &RgbSpace) -> Option<DMat3> {
-    let xyz = |[x, y]: [f64; 2]| DVec3::new(x / y, 1.0, (1.0 - x - y) / y);
-    let p = space.primaries.map(xyz);
-    let primaries = DMat3::from_cols(p[0], p[1], p[2]);
-    if primaries.determinant().abs() < 1e-12 {
-        return None;
-    }
-    let scale = primaries.inverse() * xyz(space.white);
-    Some(primaries * DMat3::from_diagonal(scale))
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Columns, rgb_to_xyz};
+    use super::Columns;
     use spectrum::{Basis, RgbSpace};
 
     #[test]
-    fn srgb_matrix_is_the_published_one() {
-        // [Bt709] with D65, to the four digits everyone prints
-        let m = rgb_to_xyz(&RgbSpace::srgb())
-            .unwrap()
-            .transpose()
-            .to_cols_array();
-        let published = [
-            0.4124, 0.3576, 0.1805, 0.2126, 0.7152, 0.0722, 0.0193, 0.1192, 0.9505,
-        ];
-        for (a, b) in m.iter().zip(published) {
-            assert!((a - b).abs() < 3e-4, "{a} {b}");
+    fn columns_go_back_to_the_model() {
+        let f = [0.3, -0.02, 1.7];
+        for basis in [
+            Basis::Rgb(RgbSpace::srgb()),
+            Basis::Rgb(RgbSpace::trinitron()),
+            Basis::Xyz,
+        ] {
+            let native = Columns::new(&basis, 3).unwrap().convert(&f);
+            let rows = basis.to_linear_srgb();
+            for c in 0..3 {
+                let back: f64 = native.iter().zip(&rows).map(|(v, row)| v * row[c]).sum();
+                assert!((back - f[c]).abs() < 1e-12, "{basis:?}: {back} {}", f[c]);
+            }
         }
+        let line = RgbSpace {
+            primaries: [[0.3, 0.3], [0.4, 0.3], [0.5, 0.3]],
+            ..RgbSpace::srgb()
+        };
+        assert!(
+            Columns::new(&Basis::Rgb(line), 3).is_err(),
+            "primaries on a line"
+        );
     }
 
     #[test]
     fn white_keeps_its_level() {
-        let space = RgbSpace {
-            white_level: 0.358,
-            ..RgbSpace::srgb()
-        };
+        let space = RgbSpace::trinitron();
+        let level = space.white_level;
         let columns = Columns::new(&Basis::Rgb(space), 3).unwrap();
         for v in columns.convert(&[1.0; 3]) {
-            assert!((v - 0.358).abs() < 1e-12, "{v}");
+            assert!((v - level).abs() < 1e-12, "{v}");
         }
     }
 

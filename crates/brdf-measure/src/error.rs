@@ -27,7 +27,10 @@ pub enum MeasureError {
         /// What would do.
         expected: &'static str,
     },
-    /// The grid or the values do not fit the format.
+    /// A grid without cells, or of more than fit into memory.
+    #[error("a grid of {} x {} x {} cells is empty or too large", .0[0], .0[1], .0[2])]
+    Grid([u32; 3]),
+    /// The values do not fit the format.
     #[error(transparent)]
     Format(#[from] brdf_formats::Error),
 }

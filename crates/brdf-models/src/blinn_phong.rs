@@ -36,7 +36,7 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
     examples: &[
         "n=100,ks=0.3,kd=0.5/0.3/0.1",
         "n=2,ks=1,kd=0",
-        "n=10000,ks=0.9,kd=0.1",
+        "n=3000,ks=0.9,kd=0.1",
     ],
 };
 

@@ -74,7 +74,8 @@ fn unpolarised(n: f64, k: f64, c: f64) -> f64 {
     let c2 = c * c;
     let s2 = (1.0 - c2).max(0.0);
     let (re, im) = (n * n - k * k - s2, n * k);
-    let r = re.hypot(2.0 * im);
+    // indices are far from the squares that would overflow: no hypot needed
+    let r = (re * re + 4.0 * im * im).sqrt();
     // a^2 and b^2 = (r +- re)/2: take the sum that does not cancel, the other by a b = n k
     let big = 0.5 * (r + re.abs());
     let small = if big > 0.0 { im * im / big } else { 0.0 };

@@ -1,12 +1,15 @@
 //! Relative variance, cost and size of the samplers on MERL files.
 //!
-//! `cargo run --release -p brdf-sampling --example relvar -- FILE.binary ...`
+//! `cargo run --release -p brdf-sampling --example relvar -- [--methods=default,fine,cosine] FILE.binary ...`
 #![expect(clippy::print_stdout, reason = "a program")]
 #![expect(clippy::disallowed_methods, reason = "reads the files it is told")]
 
 use brdf::{DirectionSampler, Measured, direction};
 use brdf_formats::{MERL_SCALE, MerlFile};
-use brdf_sampling::{Hvt, HvtOptions, Preset, Target, relative_variance};
+use brdf_sampling::{
+    Cosine, Dictionary, Hvt, HvtOptions, Inversion, InversionOptions, Preset, Target,
+    relative_variance,
+};
 use brdf_table::{CellPolicy, Gridded, Interpolation, PhiDomain, TableBuilder};
 use glam::{DVec2, DVec3};
 use spectrum::{Basis, RgbSpace};
@@ -44,23 +47,49 @@ fn load(path: &str) -> Result<Gridded, Box<dyn Error>> {
     })
 }
 
+enum Method {
+    Cosine,
+    Inversion,
+    Single,
+    Dictionary,
+    Hvt(HvtOptions),
+}
+
+impl Method {
+    fn parse(name: &str) -> Option<Self> {
+        Some(match name {
+            "cosine" => Self::Cosine,
+            "inversion" => Self::Inversion,
+            "ggx" => Self::Single,
+            "dictionary" => Self::Dictionary,
+            _ => Self::Hvt(options(name)?),
+        })
+    }
+
+    fn build(&self, target: Target<'_>) -> Box<dyn DirectionSampler> {
+        match self {
+            Self::Cosine => Box::new(Cosine),
+            Self::Inversion => Box::new(Inversion::new(target, InversionOptions::default())),
+            Self::Single => Box::new(Dictionary::single(target)),
+            Self::Dictionary => Box::new(Dictionary::new(target)),
+            Self::Hvt(options) => Box::new(Hvt::new(target, *options)),
+        }
+    }
+}
+
 fn options(name: &str) -> Option<HvtOptions> {
-    if let Some(p) = Preset::ALL
-        .iter()
-        .find(|p| format!("{p:?}").eq_ignore_ascii_case(name))
-    {
+    let named = |p: &&Preset| format!("{p:?}").eq_ignore_ascii_case(name);
+    if let Some(p) = Preset::ALL.iter().find(named) {
         return Some(p.options());
     }
-    // N_THETAxN_AxN_B[xNEWTON]
     let n: Vec<usize> = name.split('x').map_while(|s| s.parse().ok()).collect();
     let mut o = Preset::Default.options();
     [o.n_theta, o.n_a, o.n_b] = *n.first_chunk::<3>()?;
-    o.newton = n.get(3).copied().unwrap_or(o.newton);
-    o.r0 = n.get(4).map(|r| *r as f64 * 1e-4);
     Some(o)
 }
 
 struct Row {
+    bytes: usize,
     shown: Vec<f64>,
     mean: f64,
     worst: f64,
@@ -70,15 +99,16 @@ struct Row {
     pdf_ns: f64,
 }
 
-fn measure(target: Target<'_>, options: HvtOptions) -> (Hvt, Row) {
+fn measure(target: Target<'_>, build: &dyn Fn() -> Box<dyn DirectionSampler>) -> Row {
     let start = Instant::now();
-    let sampler = Hvt::new(target, options);
+    let sampler = build();
     let build_ms = start.elapsed().as_secs_f64() * 1e3;
-    let at = |deg: f64| relative_variance(target, &sampler, deg, SAMPLES);
+    let at = |deg: f64| relative_variance(target, &*sampler, deg, SAMPLES);
     let shown = SHOWN_DEG.iter().map(|&d| at(d).value).collect();
     let all: Vec<_> = (0..24).map(|k| at(off_grid(k))).collect();
-    let (sample_ns, pdf_ns) = cost(&sampler);
-    let row = Row {
+    let (sample_ns, pdf_ns) = cost(&*sampler);
+    Row {
+        bytes: sampler.bytes(),
         shown,
         mean: all.iter().map(|v| v.value).sum::<f64>() / 24.0,
         worst: all.iter().fold(0.0, |m, v| v.value.max(m)),
@@ -86,12 +116,11 @@ fn measure(target: Target<'_>, options: HvtOptions) -> (Hvt, Row) {
         build_ms,
         sample_ns,
         pdf_ns,
-    };
-    (sampler, row)
+    }
 }
 
 /// Nanoseconds of sample and pdf.
-fn cost(sampler: &impl DirectionSampler) -> (f64, f64) {
+fn cost(sampler: &dyn DirectionSampler) -> (f64, f64) {
     let mut rng = sampling::Rng::new(5);
     let inputs: Vec<(DVec3, DVec2)> = (0..4_000)
         .map(|_| {
@@ -131,18 +160,19 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut names = vec!["default".to_string()];
     let mut files = Vec::new();
     for arg in std::env::args().skip(1) {
-        match arg.strip_prefix("--sizes=") {
+        match arg.strip_prefix("--methods=") {
             Some(list) => names = list.split(',').map(String::from).collect(),
             None => files.push(arg),
         }
     }
-    let (sample_ns, pdf_ns) = cost(&brdf_sampling::Cosine);
+    let (sample_ns, pdf_ns) = cost(&Cosine);
     println!("for comparison, cosine: {sample_ns:.1} ns sample, {pdf_ns:.1} ns pdf");
     for name in &names {
-        let options = options(name).ok_or("sizes: preset or AxBxC")?;
+        let method = Method::parse(name)
+            .ok_or("methods: a preset, AxBxC, cosine, inversion, ggx, dictionary")?;
         let mut means = Vec::new();
         println!(
-            "## {name}\nmaterial | bytes | build ms | ns sample | ns pdf | r0 | {SHOWN_DEG:?} | mean | worst angle | max w | predicted"
+            "## {name}\nmaterial | bytes | build ms | ns sample | ns pdf | {SHOWN_DEG:?} | mean | worst angle | max w"
         );
         for path in &files {
             let table = load(path)?;
@@ -151,21 +181,20 @@ fn main() -> Result<(), Box<dyn Error>> {
                 table.eval_native(wi, wo, &mut rgb);
                 luminance(&rgb)
             };
-            let (sampler, row) = measure(Target::new(&f), options);
+            let target = Target::new(&f);
+            let row = measure(target, &|| method.build(target));
             let shown: Vec<String> = row.shown.iter().map(|v| format!("{v:.5}")).collect();
             let stem = path.rsplit('/').next().unwrap_or(path);
             println!(
-                "{stem:30} | {} | {:.0} | {:.0} | {:.0} | {:.4} | {} | {:.5} | {:.5} | {:.2} | {:.5}",
-                sampler.bytes(),
+                "{stem:30} | {} | {:.0} | {:.0} | {:.0} | {} | {:.5} | {:.5} | {:.2}",
+                row.bytes,
                 row.build_ms,
                 row.sample_ns,
                 row.pdf_ns,
-                sampler.scale(),
                 shown.join(" "),
                 row.mean,
                 row.worst,
-                row.max_weight,
-                sampler.predicted_variance()
+                row.max_weight
             );
             means.push(row.mean);
         }

@@ -97,13 +97,22 @@ impl Chart {
     /// From the hemisphere to the square; `wi` in the frame where wo has azimuth 0, wi.z > 0.
     #[inline]
     pub(crate) fn inverse(&self, wi: DVec3) -> ChartPoint {
-        let (hx, hy, hz) = (wi.x + self.sin_o, wi.y, wi.z + self.cos_o);
-        let xy2 = hx * hx + hy * hy;
+        let h = DVec3::new(wi.x + self.sin_o, wi.y, wi.z + self.cos_o);
+        let p = self.locate(h, h.x * h.x + h.y * h.y);
+        ChartPoint { wi, ..p }
+    }
+
+    /// [`Self::inverse`] from wi + wo in that frame, and its squared distance from the normal. The latter does not
+    /// change under rotation, so a caller has it before the frame is known: the longest chain of dependent
+    /// operations starts there.
+    #[inline]
+    pub(crate) fn locate(&self, h: DVec3, xy2: f64) -> ChartPoint {
+        let (hx, hy, hz) = (h.x, h.y, h.z);
         let len2 = xy2 + hz * hz;
         let (len, xy) = (len2.sqrt(), xy2.sqrt());
         // 2 (1 - cos theta_h) = 2 xy^2 / (len (len + hz))
-        let r = xy * (2.0 / (len2 + len * hz)).sqrt();
-        let root = (r * r + self.r0 * self.r0).sqrt();
+        let r2 = 2.0 * xy2 / (len2 + len * hz);
+        let (r, root) = (r2.sqrt(), (r2 + self.r0 * self.r0).sqrt());
         let (l, y_slope) = pseudo_log(((r + root) * self.inv_r0).max(1.0));
         let half_max = self.half_max(xy, hz);
         let one_plus_max = 1.0 + (1.0 - half_max).sqrt();
@@ -126,22 +135,19 @@ impl Chart {
         // wo.h = |wi + wo| / 2
         let jacobian = 16.0 * len * r * root * self.span * reach / y_slope;
         ChartPoint {
-            wi,
+            wi: h - DVec3::new(self.sin_o, 0.0, self.cos_o),
             ab,
             jacobian: jacobian.max(f64::MIN_POSITIVE),
         }
     }
 
-    /// sin^2(phi_max / 2) = (d - n) / (2 d), for sine and cosine of theta_h or any multiple of both; branches
-    /// before dividing.
+    /// sin^2(phi_max / 2) = (d - n) / (2 d), for sine and cosine of theta_h or any multiple of both. Where
+    /// n <= -d, phi_max is pi: the ratio is then 1 or more, so the clamp is all it takes.
     #[inline]
     fn half_max(&self, s: f64, c: f64) -> f64 {
         let n = -self.cos_o * (c - s) * (c + s);
         let d = 2.0 * self.sin_o * s * c;
-        if n <= -d {
-            return 1.0;
-        }
-        (0.5 * (d - n) / d).clamp(MIN_HALF, 1.0)
+        (0.5 * (d - n) / d.max(f64::MIN_POSITIVE)).clamp(MIN_HALF, 1.0)
     }
 }
 

@@ -115,6 +115,18 @@ impl ViewFrame {
         }
     }
 
+    /// wi + wo, both made unit vectors to first order: in this frame, and its squared distance from the normal.
+    #[inline]
+    pub(crate) fn half(self, wi: DVec3, wo: DVec3) -> (DVec3, f64) {
+        let h = unit_factor(wi.length_squared()) * wi + unit_factor(wo.length_squared()) * wo;
+        let local = DVec3::new(
+            h.x * self.cos_phi + h.y * self.sin_phi,
+            h.y * self.cos_phi - h.x * self.sin_phi,
+            h.z,
+        );
+        (local, h.x * h.x + h.y * h.y)
+    }
+
     /// Also makes `w` a unit vector to first order.
     #[inline]
     pub(crate) fn to_local(self, w: DVec3) -> DVec3 {

@@ -6,11 +6,16 @@
 //! - [`Uniform`], [`Cosine`]: no table, the yardsticks.
 //! - [`Rejection`]: the thesis' method; no table but maxima.
 //! - [`Inversion`]: large tables, plain.
+//! - [`Hvt`]: small tables of least variance, the default choice; [`ColourTarget`] serves several channels.
+//! - [`Dictionary`]: GGX lobes and a cosine, 0.8 KB or a single lobe.
+//! - [`relative_variance`]: how noisy any of them is.
 //!
 //! Not here: lights, multiple importance sampling, files.
 
 mod chart;
+mod colour;
 mod cosine;
+mod dictionary;
 mod hvt;
 mod inversion;
 mod known_grid;
@@ -22,7 +27,9 @@ mod target;
 mod uniform;
 mod variance;
 
+pub use colour::ColourTarget;
 pub use cosine::Cosine;
+pub use dictionary::Dictionary;
 pub use hvt::{Hvt, HvtOptions, MAX_B, Preset};
 pub use inversion::{Inversion, InversionOptions};
 pub use rejection::{BoundAudit, Rejection, RejectionOptions, SharedTarget};

@@ -1,7 +1,9 @@
 //! Build and look-up times of half-difference tables.
 
+#![expect(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
+
 use brdf::{Brdf, LANES, Lanes3, Status};
-use brdf_table::{GriddedN, HalfDiffTable, Interpolation, PhiDomain};
+use brdf_table::{CellPolicy, GriddedN, HalfDiffTable, Interpolation, PhiDomain};
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use glam::DVec3;
 use spectrum::{Basis, RgbSpace};
@@ -95,6 +97,10 @@ fn build(c: &mut Criterion) {
     group.throughput(Throughput::Elements((MERL[0] * MERL[1] * MERL[2]) as u64));
     group.bench_function("from-fn", |b| {
         b.iter_batched(|| (), |()| table(), BatchSize::PerIteration);
+    });
+    let (file, _) = table().to_merl().unwrap();
+    group.bench_function("from-merl", |b| {
+        b.iter(|| HalfDiffTable::from_merl(black_box(&file), CellPolicy::AnyNegative).unwrap());
     });
     group.finish();
 }

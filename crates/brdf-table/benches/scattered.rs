@@ -87,10 +87,10 @@ fn build(c: &mut Criterion) {
     group.throughput(Throughput::Elements(few.len() as u64));
     group.bench_function("kd-nearest", |b| b.iter(|| KdNearest::new(black_box(&few))));
     group.bench_function("thin-plate/3", |b| {
-        b.iter(|| ThinPlate::new(black_box(&few)))
+        b.iter(|| ThinPlate::new(black_box(&few)));
     });
     group.bench_function("thin-plate/31", |b| {
-        b.iter(|| ThinPlate::new(black_box(&many)))
+        b.iter(|| ThinPlate::new(black_box(&many)));
     });
     let plate = ThinPlate::new(&few).expect("a fit");
     let dims = [48, 32, 24];

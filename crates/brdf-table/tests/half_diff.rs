@@ -52,6 +52,10 @@ fn eval(table: &HalfDiffTable, wi: DVec3, wo: DVec3) -> [f64; 3] {
     out
 }
 
+fn is_black(values: [f64; 3]) -> bool {
+    values.iter().all(|v| v.abs() <= 0.0)
+}
+
 fn eval_at(table: &HalfDiffTable, theta_h: f64, theta_d: f64, phi_d: f64) -> f64 {
     let angles = HalfDiff {
         theta_h,
@@ -106,7 +110,8 @@ fn reciprocal_tables_are_reciprocal_to_the_bit() {
     let mut rng = Rng::new(1);
     for _ in 0..100_000 {
         let (wi, wo) = (above(&mut rng), above(&mut rng));
-        assert_eq!(eval(&table, wi, wo), eval(&table, wo, wi), "{wi} {wo}");
+        let bits = |a, b| eval(&table, a, b).map(f64::to_bits);
+        assert_eq!(bits(wi, wo), bits(wo, wi), "{wi} {wo}");
     }
     assert!(table.symmetry().reciprocal, "it says so");
 }
@@ -368,7 +373,7 @@ fn special_pairs_are_finite_and_below_the_horizon_is_black() {
             Status::Filled,
             "wi = -wo"
         );
-        assert_eq!(out, [0.0; 3], "wi = -wo");
+        assert!(is_black(out), "wi = -wo: {out:?}");
     }
 }
 
@@ -402,7 +407,7 @@ fn a_single_spike_stays_within_its_neighbours() {
             "{at:?}: {value}"
         );
     }
-    assert_eq!(eval(&probe, si, so), [0.0; 3], "an all-zero table is zero");
+    assert!(is_black(eval(&probe, si, so)), "an all-zero table is zero");
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! Scattered rows with a known truth, and the genuine Cornell files where they are at hand.
 
+#![expect(clippy::unwrap_used, reason = "helpers of tests fail loudly")]
+
 use brdf::{Measured, Status};
 use brdf_formats::{AstmFile, PbrtTextFile};
 use brdf_table::scattered::validation::{Scheme, leave_one_ring_out};

@@ -1,6 +1,7 @@
 //! The command line as typed: verbs, flags, help. Nothing here does work.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use scene_io::scene::{InterpolationName, SamplerName};
 use std::path::PathBuf;
 
 /// Check, see, convert and render measured reflectance.
@@ -59,10 +60,10 @@ pub(crate) struct Render {
     pub(crate) threads: Option<u16>,
     /// How directions are chosen on measured materials.
     #[arg(long, value_name = "NAME")]
-    pub(crate) sampler: Option<String>,
+    pub(crate) sampler: Option<SamplerName>,
     /// Interpolation of tables: see `gonio info FILE` for what a format offers.
     #[arg(long, value_name = "NAME")]
-    pub(crate) interpolation: Option<String>,
+    pub(crate) interpolation: Option<InterpolationName>,
     /// Size in pixels, such as 320x240.
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(crate) size: Option<(u32, u32)>,
@@ -90,23 +91,23 @@ pub(crate) struct Eval {
     /// A measured-reflectance file in any known format.
     pub(crate) file: PathBuf,
     /// Polar angle toward the light, degrees.
-    #[arg(long, value_name = "DEG", required_unless_present = "batch", allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", required_unless_present = "batch", value_parser = parse_theta)]
     pub(crate) theta_i: Option<f64>,
     /// Azimuth toward the light, degrees.
-    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true, value_parser = parse_finite)]
     pub(crate) phi_i: f64,
     /// Polar angle toward the viewer, degrees.
-    #[arg(long, value_name = "DEG", required_unless_present = "batch", allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", required_unless_present = "batch", value_parser = parse_theta)]
     pub(crate) theta_o: Option<f64>,
     /// Azimuth toward the viewer, degrees.
-    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true, value_parser = parse_finite)]
     pub(crate) phi_o: f64,
     /// Directions from a file: theta_i,phi_i,theta_o,phi_o in degrees a line.
     #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["theta_i", "theta_o"])]
     pub(crate) batch: Option<PathBuf>,
     /// Interpolation of tables.
     #[arg(long, value_name = "NAME")]
-    pub(crate) interpolation: Option<String>,
+    pub(crate) interpolation: Option<InterpolationName>,
 }
 
 /// The pictures `gonio plot` draws.
@@ -137,14 +138,14 @@ pub(crate) struct Plot {
     #[arg(long, value_enum, default_value_t = PlotKind::Polar)]
     pub(crate) kind: PlotKind,
     /// Incident polar angles, degrees, comma separated.
-    #[arg(long, value_name = "DEG", value_delimiter = ',', default_values_t = [45.0])]
+    #[arg(long, value_name = "DEG", value_delimiter = ',', default_values_t = [45.0], value_parser = parse_theta)]
     pub(crate) theta_i: Vec<f64>,
     /// Logarithmic radius or colours.
     #[arg(long)]
     pub(crate) log: bool,
     /// Interpolation of tables.
     #[arg(long, value_name = "NAME")]
-    pub(crate) interpolation: Option<String>,
+    pub(crate) interpolation: Option<InterpolationName>,
 }
 
 /// Linear combination of materials, as a MERL file.
@@ -174,7 +175,7 @@ pub(crate) struct Convert {
     pub(crate) output: PathBuf,
     /// Interpolation used where the grids differ.
     #[arg(long, value_name = "NAME")]
-    pub(crate) interpolation: Option<String>,
+    pub(crate) interpolation: Option<InterpolationName>,
 }
 
 /// A virtual gonioreflectometer: measure a model onto the MERL or the Cornell grid.
@@ -188,16 +189,16 @@ pub(crate) struct Measure {
     /// NAME or NAME:parameter=value,...; `list` prints what there is.
     pub(crate) model: String,
     /// Output: .binary (MERL grid) or .astm (Cornell grid).
-    #[arg(short, long, value_name = "OUT", required_unless_present = "model")]
+    #[arg(short, long, value_name = "OUT")]
     pub(crate) output: Option<PathBuf>,
     /// Relative noise (standard deviation of the logarithm).
-    #[arg(long, value_name = "SIGMA", default_value_t = 0.0)]
+    #[arg(long, value_name = "SIGMA", default_value_t = 0.0, value_parser = parse_finite)]
     pub(crate) noise: f64,
     /// Read through a 10-bit camera with bracketed exposures.
     #[arg(long)]
     pub(crate) bracketed: bool,
     /// Detector blind spot around the incident direction, degrees (Cornell grid).
-    #[arg(long, value_name = "DEG", default_value_t = 0.0)]
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, value_parser = parse_finite)]
     pub(crate) blind_spot: f64,
     /// Seed of the noise.
     #[arg(long, value_name = "S", default_value_t = 0)]
@@ -215,6 +216,25 @@ pub(crate) struct Compare {
     pub(crate) a: PathBuf,
     /// The reference.
     pub(crate) b: PathBuf,
+}
+
+impl Render {
+    /// What `gonio` without a verb does.
+    pub(crate) fn embedded_default() -> Self {
+        Self { output: PathBuf::from("gonio.exr"), ..Self::default() }
+    }
+}
+
+/// Degrees from the normal, 0 to 90.
+fn parse_theta(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(deg) if (0.0..=90.0).contains(&deg) => Ok(deg),
+        _ => Err("expected degrees from the normal, 0 to 90".into()),
+    }
+}
+
+fn parse_finite(text: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|v: &f64| v.is_finite()).ok_or_else(|| "expected a finite number".into())
 }
 
 fn parse_size(text: &str) -> Result<(u32, u32), String> {

@@ -88,6 +88,8 @@ impl Piecewise1 {
     }
 
     /// The point x in [0, 1) below which lies the probability `u` in [0, 1), and the density there.
+    ///
+    /// The density is 0 only where `u` falls on the edge of the support of a linear table.
     #[inline]
     #[must_use]
     pub fn sample(&self, u: f64) -> (f64, f64) {

@@ -97,6 +97,8 @@ impl Piecewise2 {
     }
 
     /// The point that `u` in [0, 1)^2 selects, in [0, 1)^2, and the density there.
+    ///
+    /// The density is 0 only where `u` falls on the edge of the support of a bilinear table.
     #[inline]
     #[must_use]
     pub fn sample(&self, u: DVec2) -> (DVec2, f64) {
@@ -112,7 +114,12 @@ impl Piecewise2 {
         }
         let (left, right) = row.ends(cell);
         let (low, high) = (row.sum(cell), row.sum(cell + 1));
-        let part = ((target - low) / (high - low)).clamp(0.0, 1.0);
+        // On the very edge of the support a row may have no mass: its density there is 0.
+        let part = if high > low {
+            ((target - low) / (high - low)).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
         let t = invert_linear(left, right, part);
         let x = ((cell as f64 + t) / n as f64).min(ONE_MINUS_EPSILON);
         (DVec2::new(x, y), left + (right - left) * t)

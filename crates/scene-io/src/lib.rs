@@ -11,6 +11,7 @@
 //! No process-wide state, no environment variables: folders to search and to cache in are arguments.
 
 pub mod checkpoint;
+pub mod convert;
 pub mod image;
 pub mod load;
 pub mod material;

@@ -88,7 +88,7 @@ impl RgbSpace {
     /// The space of Cornell's RGB measurements, "RGB for Trinitron phosphors".
     ///
     /// The files state no numbers. These were recovered by least squares from materials that are published
-    /// both as spectra and as RGB [Cornell], with XYZ as sums over the files' 10 nm bands under D65; they
+    /// both as spectra and as RGB [CornellMeasured], with XYZ as sums over the files' 10 nm bands under D65; they
     /// return the RGB columns to 4e-6 of their size. Rounded they are (0.620, 0.341), (0.276, 0.597),
     /// (0.150, 0.072) with D65 white.
     #[must_use]

@@ -5,7 +5,6 @@
     clippy::print_stdout,
     reason = "a bench reports to whoever runs it"
 )]
-#![expect(missing_docs, reason = "criterion's macro makes a public function")]
 
 use brdf::{Brdf, DirectionSample, DirectionSampler, LANES, Lanes3, Paired, SampleLanes};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};

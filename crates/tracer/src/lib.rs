@@ -1,7 +1,19 @@
 //! Camera, shapes, lights, BVH, integrator and film; sees only the contract of crate `brdf`.
+//!
+//! A [`Description`] (camera, materials, objects, lights, environment) becomes a [`Scene`]; [`render`] adds samples of
+//! it to a [`Film`]; [`Film::estimate`] gives the picture and the error it knows of itself.
+//!
+//! Goals: path tracing with next-event estimation and multiple importance sampling, over streams of paths, so that
+//! materials are asked for hundreds of directions by one call; the same bits for the same seed, whatever the threads
+//! and interruptions; scenes of any size, from a millionth to a million.
+//! Simplifications: surfaces reflect and do not transmit; emitters shine on their front; environments are constant over
+//! a pixel of their picture; analytic shapes are tested one after the other, which serves some tens of them.
+//! Not here: files, formats, colour spaces, particular reflectances. Space is the caller's: lengths have no unit, y is
+//! up for environments alone.
 
 mod batch;
 mod build;
+mod build_lights;
 mod bvh;
 mod camera;
 mod estimate;

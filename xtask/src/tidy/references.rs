@@ -9,7 +9,7 @@ pub(super) fn complaints() -> Result<Vec<String>> {
     let bib = repo::read(&repo::root().join("docs/references.bib"))?;
     let entry = Regex::new(r"(?m)^@\w+\{([^,\s]+),")?;
     let known: BTreeSet<&str> = entry.captures_iter(&bib).filter_map(|c| c.get(1)).map(|m| m.as_str()).collect();
-    let key = Regex::new(r"\[([A-Z][A-Za-z]+[0-9]{2,4}[a-z]?)\]")?;
+    let key = Regex::new(r"\[([A-Z][A-Za-z]+[0-9]{2,4}[a-z]?)\\?\]")?;
     let mut complaints = Vec::new();
     let mut files = repo::files("crates", ".rs")?;
     files.extend(repo::files("docs", ".md")?);

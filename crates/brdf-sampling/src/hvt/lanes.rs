@@ -203,8 +203,7 @@ fn inverse(v: &Views, r0: f32, wi: &Lanes3) -> Points {
 fn half_max(sin_o: f32, cos_o: f32, s: f32, c: f32) -> f32 {
     let n = -cos_o * (c - s) * (c + s);
     let d = 2.0 * sin_o * s * c;
-    let half = (0.5 * (d - n) / d.max(f32::MIN_POSITIVE)).clamp(1e-10, 1.0);
-    if n <= -d { 1.0 } else { half }
+    (0.5 * (d - n) / d.max(f32::MIN_POSITIVE)).clamp(1e-10, 1.0)
 }
 
 #[inline]

@@ -28,7 +28,7 @@ use problem::{Problem, Unknowns};
 use rayon::prelude::*;
 use shape::Shape;
 use table::{Place, Table};
-use validation::Validation;
+pub(crate) use validation::Validation;
 
 /// Radial scales tried, radians.
 const SCALES: [f64; 9] = [0.0007, 0.002, 0.005, 0.012, 0.03, 0.07, 0.16, 0.4, 1.0];
@@ -40,6 +40,11 @@ pub struct Hvt {
     table: Table,
     r0: f64,
     predicted: f64,
+}
+
+/// The slice below a viewer among `n` slices even in tau, and the weight of the one above.
+pub(crate) fn slice_blend(cos_o: f64, n: usize) -> (usize, f64) {
+    slices::blend(slices::tau(cos_o.min(1.0)), n)
 }
 
 /// The viewer-dependent half of every query.
@@ -88,6 +93,20 @@ impl Hvt {
     #[must_use]
     pub fn scale(&self) -> f64 {
         self.r0
+    }
+
+    /// f(wi, wo) as the table has it, in 1/sr, for a directional albedo `albedo` at this viewer: albedo * pdf / cos.
+    ///
+    /// An approximation, not the target: evaluated this way every sample has the weight `albedo`, so luminance is
+    /// free of noise, at a systematic error whose relative square is the relative variance of the exact mode. It
+    /// is not reciprocal. 0 below the horizon.
+    #[must_use]
+    pub fn baked(&self, wi: DVec3, wo: DVec3, albedo: f64) -> f64 {
+        if wi.z > 0.0 {
+            albedo * self.pdf(wi, wo) / wi.z
+        } else {
+            0.0
+        }
     }
 
     /// Density of a point of the chart per unit solid angle.
@@ -175,7 +194,8 @@ impl DirectionSampler for Hvt {
             return 0.0;
         }
         let view = self.view(wo);
-        let p = view.chart.inverse(view.frame.to_local(wi));
+        let (h, xy2) = view.frame.half(wi, wo);
+        let p = view.chart.locate(h, xy2);
         self.density(&view, &p)
     }
 

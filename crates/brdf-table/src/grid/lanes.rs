@@ -174,26 +174,31 @@ fn gather_linear<const N: usize>(
     layout: &Layout,
     at: &LaneStencils,
 ) -> [F32s; N] {
-    let mut out = [[0.0; LANES]; N];
+    // First all reads, so that the cache misses of all lanes overlap; then all arithmetic.
     let (slab, row) = (layout.slab(), layout.row());
+    let mut corners = [[[[0.0; N]; 2]; 4]; LANES];
     for k in 0..LANES {
         let base = at.base[k] as usize;
-        let [t_h, t_d, t_p] = [at.t[0][k], at.t[1][k], at.t[2][k]];
-        let mut sum = [0.0; N];
-        let rows = [
-            (base, (1.0 - t_h) * (1.0 - t_d)),
-            (base + row, (1.0 - t_h) * t_d),
-            (base + slab, t_h * (1.0 - t_d)),
-            (base + slab + row, t_h * t_d),
-        ];
-        for (start, weight) in rows {
-            let [low, high] = [&nodes[start], &nodes[start + 1]];
-            for c in 0..N {
-                sum[c] += weight * (low[c] + t_p * (high[c] - low[c]));
-            }
+        for (pair, start) in
+            corners[k]
+                .iter_mut()
+                .zip([base, base + row, base + slab, base + slab + row])
+        {
+            pair.copy_from_slice(&nodes[start..start + 2]);
         }
+    }
+    let mut out = [[0.0; LANES]; N];
+    for k in 0..LANES {
+        let [t_h, t_d, t_p] = [at.t[0][k], at.t[1][k], at.t[2][k]];
+        let weights = [
+            (1.0 - t_h) * (1.0 - t_d),
+            (1.0 - t_h) * t_d,
+            t_h * (1.0 - t_d),
+            t_h * t_d,
+        ];
         for c in 0..N {
-            out[c][k] = sum[c];
+            let along = corners[k].map(|[low, high]| low[c] + t_p * (high[c] - low[c]));
+            out[c][k] = along.iter().zip(weights).map(|(v, w)| w * v).sum();
         }
     }
     out

@@ -1,7 +1,7 @@
-//! The dense factorisations behind [`polyharmonic`](crate::scattered).
+//! The dense factorisations behind the polyharmonic fit.
 //!
-//! Written out rather than taken from nalgebra because its Cholesky runs column by column on one thread: at
-//! 1435 rows this one is several times faster.
+//! Written out rather than taken from nalgebra, whose Cholesky works column by column on one thread: a fit of 1435 rows
+//! takes 0.15 s with this one, and validation makes dozens.
 
 use rayon::prelude::*;
 

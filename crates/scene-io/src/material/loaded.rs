@@ -3,7 +3,7 @@
 use brdf::Measured;
 use brdf_formats::Format;
 use brdf_table::scattered::FillReport;
-use brdf_table::{CellReport, Gridded};
+use brdf_table::{CellReport, Gridded, HalfDiffTable};
 use brdf_table::{RglTable, ThinPlate};
 use std::fmt;
 use std::path::PathBuf;
@@ -66,6 +66,17 @@ pub(super) enum Form {
     Rgl(Arc<RglTable>, u64),
     /// Only ever asked through `measured`.
     Opaque,
+}
+
+impl LoadedMeasured {
+    /// The table itself, if the file is one.
+    #[must_use]
+    pub fn table(&self) -> Option<&Arc<HalfDiffTable>> {
+        match &self.form {
+            Form::Grid(grid) => Some(&grid.table),
+            _ => None,
+        }
+    }
 }
 
 impl fmt::Debug for LoadedMeasured {

@@ -1,6 +1,7 @@
 //! Light from infinitely far away in every direction.
 
-use glam::{DMat3, Mat3, Vec3};
+use glam::{DMat3, DVec2, DVec3, Mat3, Vec3};
+use sampling::Piecewise2;
 use spectrum::Samples;
 use std::f32::consts::PI;
 
@@ -37,10 +38,8 @@ pub(crate) struct ImageLight<const N: usize> {
     pixels: Vec<[f32; N]>,
     to_world: Mat3,
     to_local: Mat3,
-    /// Per row, sums of brightness over its pixels up to and with each, normalised.
-    conditional: Vec<f32>,
-    /// Sums over rows, brightness times the row's share of the sphere, normalised.
-    marginal: Vec<f32>,
+    /// Brightness times solid angle of each pixel, over columns and rows.
+    table: Piecewise2,
     /// Density per solid angle of each pixel.
     density: Vec<f32>,
 }
@@ -50,38 +49,18 @@ impl<const N: usize> ImageLight<N> {
     pub(crate) fn new(image: &EnvironmentImage<N>) -> Option<Self> {
         let (w, h) = (image.width as usize, image.height as usize);
         let bright = |i: usize| f64::from(image.pixels[i].mean().max(0.0));
-        let mut conditional = vec![0.0; w * h];
-        let mut rows = vec![0.0; h];
-        let mut total = 0.0;
-        for y in 0..h {
-            let sums: Vec<f64> = (0..w)
-                .scan(0.0, |sum, x| {
-                    *sum += bright(y * w + x);
-                    Some(*sum)
-                })
-                .collect();
-            let row = sums[w - 1];
-            for x in 0..w {
-                conditional[y * w + x] = if row > 0.0 { sums[x] / row } else { 1.0 } as f32;
-            }
-            total += row * row_solid_angle(y, h);
-            rows[y] = total;
-        }
-        if !(total > 0.0 && total.is_finite()) {
-            return None;
-        }
-        // brightness / integral of brightness; the pixel's solid angle is 2 pi / w times its row's share
-        let per_pixel = std::f64::consts::TAU / w as f64;
-        let density = (0..w * h).map(|i| (bright(i) / (total * per_pixel)) as f32);
+        let solid_angle = |i: usize| row_solid_angle(i / w, h) * std::f64::consts::TAU / w as f64;
+        let power: Vec<f64> = (0..w * h).map(|i| bright(i) * solid_angle(i)).collect();
+        let total: f64 = power.iter().sum();
+        let table = Piecewise2::constant(w, &power).ok()?;
         Some(Self {
             width: image.width,
             height: image.height,
             pixels: image.pixels.iter().map(|p| p.0).collect(),
             to_world: image.to_world.as_mat3(),
             to_local: image.to_world.transpose().as_mat3(),
-            conditional,
-            marginal: rows.iter().map(|r| (r / total) as f32).collect(),
-            density: density.collect(),
+            table,
+            density: (0..w * h).map(|i| (bright(i) / total) as f32).collect(),
         })
     }
 
@@ -111,17 +90,18 @@ impl<const N: usize> ImageLight<N> {
     /// A direction, its density and the radiance from there.
     #[inline]
     pub(crate) fn sample(&self, u: f32, v: f32) -> (Vec3, f32, [f32; N]) {
-        let w = self.width as usize;
-        let (y, v) = invert(&self.marginal, v);
-        let (x, u) = invert(&self.conditional[y * w..(y + 1) * w], u);
-        // even in cos(theta) inside the row, even in phi inside the column
-        let h = self.height as f32;
-        let (top, bottom) = (y as f32 * PI / h, (y + 1) as f32 * PI / h);
-        let cos = top.cos() + v * (bottom.cos() - top.cos());
+        let (at, _) = self.table.sample(DVec2::new(f64::from(u), f64::from(v)));
+        let (column, row) = (at.x * f64::from(self.width), at.y * f64::from(self.height));
+        let x = (column as u32).min(self.width - 1);
+        let y = (row as u32).min(self.height - 1);
+        // even in the cosine of the polar angle inside of a row
+        let step = std::f64::consts::PI / f64::from(self.height);
+        let (top, bottom) = (f64::from(y) * step, f64::from(y + 1) * step);
+        let cos = top.cos() + (row - f64::from(y)) * (bottom.cos() - top.cos());
         let sin = (1.0 - cos * cos).max(0.0).sqrt();
-        let phi = ((x as f32 + u) / w as f32 - 0.5) * 2.0 * PI;
-        let d = Vec3::new(sin * phi.sin(), cos, -sin * phi.cos());
-        let i = y * w + x;
+        let phi = (at.x - 0.5) * std::f64::consts::TAU;
+        let d = DVec3::new(sin * phi.sin(), cos, -sin * phi.cos()).as_vec3();
+        let i = (y * self.width + x) as usize;
         (self.to_world * d, self.density[i], self.pixels[i])
     }
 }
@@ -130,18 +110,4 @@ impl<const N: usize> ImageLight<N> {
 fn row_solid_angle(y: usize, h: usize) -> f64 {
     let step = std::f64::consts::PI / h as f64;
     (y as f64 * step).cos() - ((y + 1) as f64 * step).cos()
-}
-
-/// The interval of a normalised cumulative table that holds `u`, and where in it.
-#[inline]
-fn invert(cdf: &[f32], u: f32) -> (usize, f32) {
-    let i = cdf.partition_point(|&c| c <= u).min(cdf.len() - 1);
-    let below = if i > 0 { cdf[i - 1] } else { 0.0 };
-    let width = cdf[i] - below;
-    let rest = if width > 0.0 {
-        (u - below) / width
-    } else {
-        0.5
-    };
-    (i, rest.clamp(0.0, 1.0))
 }

@@ -5,12 +5,13 @@ use tracer::{Film, LeftOut, Object, Scene, Settings, Strategy, render};
 
 fn scene() -> Scene<1> {
     let mut d = empty(
-        camera([0.0, 2.2, 6.5], [0.0, 1.0, 0.0], 20.0),
+        camera([0.0, 5.0, 6.0], [0.0, 0.7, 0.0], 25.0),
         vec![grey(0.5), glossy()],
     );
-    // no pixel sees an edge of the floor: what a replicate meets once or twice is not normal, no interval covers it
+    // no pixel sees the far floor or its edge: light that a replicate meets once or twice is not normal, and Student's
+    // interval does not cover it
     d.objects = vec![
-        Object::new(floor(0.0, 1000.0), 0),
+        Object::new(floor(0.0, 10.0), 0),
         Object::new(sphere([0.0, 1.0, 0.0], 1.0), 1),
         shining(
             quad([-1.0, 4.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 2.0]),
