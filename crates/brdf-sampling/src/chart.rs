@@ -114,8 +114,6 @@ impl Chart {
         let r2 = 2.0 * xy2 / (len2 + len * hz);
         let (r, root) = (r2.sqrt(), (r2 + self.r0 * self.r0).sqrt());
         let (l, y_slope) = pseudo_log(((r + root) * self.inv_r0).max(1.0));
-        let half_max = self.half_max(xy, hz);
-        let one_plus_max = 1.0 + (1.0 - half_max).sqrt();
         // squares of cosine and sine of phi/2: of two forms of either, the one without cancellation
         let e = xy + hx.abs();
         let inv = 1.0 / (2.0 * xy * e).max(f64::MIN_POSITIVE);
@@ -125,6 +123,9 @@ impl Chart {
         } else {
             (small, large)
         };
+        // wi is above the horizon, so phi <= phi_max; at the rim rounding may say otherwise by far
+        let half_max = self.half_max(xy, hz).max(sin2.min(1.0));
+        let one_plus_max = 1.0 + (1.0 - half_max).sqrt();
         let one_plus = 1.0 + cos2.min(1.0).sqrt();
         // t / t_max and t_max / cos(phi/4)
         let ratio = (sin2 * one_plus_max / (one_plus * half_max))
