@@ -143,12 +143,14 @@ impl Chart {
     }
 
     /// sin^2(phi_max / 2) = (d - n) / (2 d), for sine and cosine of theta_h or any multiple of both. Where
-    /// n <= -d, phi_max is pi: the ratio is then 1 or more, so the clamp is all it takes.
+    /// n <= -d, phi_max is pi: the ratio is then 1 or more, so the clamp is all it takes. Seen from the normal
+    /// d is 0 and the rim is where n is: a rounding is added so that it stays on the inner side.
     #[inline]
     fn half_max(&self, s: f64, c: f64) -> f64 {
         let n = -self.cos_o * (c - s) * (c + s);
         let d = 2.0 * self.sin_o * s * c;
-        (0.5 * (d - n) / d.max(f64::MIN_POSITIVE)).clamp(MIN_HALF, 1.0)
+        let rounding = 1e-15 * (s * s + c * c);
+        (0.5 * (d - n + rounding) / d.max(f64::MIN_POSITIVE)).clamp(MIN_HALF, 1.0)
     }
 }
 

@@ -203,7 +203,8 @@ fn inverse(v: &Views, r0: f32, wi: &Lanes3) -> Points {
 fn half_max(sin_o: f32, cos_o: f32, s: f32, c: f32) -> f32 {
     let n = -cos_o * (c - s) * (c + s);
     let d = 2.0 * sin_o * s * c;
-    (0.5 * (d - n) / d.max(f32::MIN_POSITIVE)).clamp(1e-10, 1.0)
+    let rounding = 2e-7 * (s * s + c * c);
+    (0.5 * (d - n + rounding) / d.max(f32::MIN_POSITIVE)).clamp(1e-10, 1.0)
 }
 
 #[inline]
