@@ -114,8 +114,6 @@ impl Chart {
         let r2 = 2.0 * xy2 / (len2 + len * hz);
         let (r, root) = (r2.sqrt(), (r2 + self.r0 * self.r0).sqrt());
         let (l, y_slope) = pseudo_log(((r + root) * self.inv_r0).max(1.0));
-        let half_max = self.half_max(xy, hz);
-        let one_plus_max = 1.0 + (1.0 - half_max).sqrt();
         // squares of cosine and sine of phi/2: of two forms of either, the one without cancellation
         let e = xy + hx.abs();
         let inv = 1.0 / (2.0 * xy * e).max(f64::MIN_POSITIVE);
@@ -125,6 +123,9 @@ impl Chart {
         } else {
             (small, large)
         };
+        // wi is above the horizon, so phi <= phi_max; at the rim rounding may say otherwise by far
+        let half_max = self.half_max(xy, hz).max(sin2.min(1.0));
+        let one_plus_max = 1.0 + (1.0 - half_max).sqrt();
         let one_plus = 1.0 + cos2.min(1.0).sqrt();
         // t / t_max and t_max / cos(phi/4)
         let ratio = (sin2 * one_plus_max / (one_plus * half_max))
@@ -142,12 +143,14 @@ impl Chart {
     }
 
     /// sin^2(phi_max / 2) = (d - n) / (2 d), for sine and cosine of theta_h or any multiple of both. Where
-    /// n <= -d, phi_max is pi: the ratio is then 1 or more, so the clamp is all it takes.
+    /// n <= -d, phi_max is pi: the ratio is then 1 or more, so the clamp is all it takes. Seen from the normal
+    /// d is 0 and the rim is where n is: a rounding is added so that it stays on the inner side.
     #[inline]
     fn half_max(&self, s: f64, c: f64) -> f64 {
         let n = -self.cos_o * (c - s) * (c + s);
         let d = 2.0 * self.sin_o * s * c;
-        (0.5 * (d - n) / d.max(f64::MIN_POSITIVE)).clamp(MIN_HALF, 1.0)
+        let rounding = 1e-15 * (s * s + c * c);
+        (0.5 * (d - n + rounding) / d.max(f64::MIN_POSITIVE)).clamp(MIN_HALF, 1.0)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use brdf::Symmetry;
 use glam::DVec3;
+use std::f64::consts::TAU;
 use std::fmt;
 
 /// A reflectance reduced to one number, f(wi, wo) in 1/sr **without** the cosine, such as luminance.
@@ -30,7 +31,22 @@ impl<'a> Target<'a> {
     pub fn f_cos(&self, wi: DVec3, wo: DVec3) -> f64 {
         sanitised(self.f, wi, wo)
     }
+
+    /// The mean of f over both directions turned about the normal together, by eighths of a turn: what a sampler
+    /// without azimuth slices is built for.
+    pub(crate) fn turned_mean(&self, wi: DVec3, wo: DVec3) -> f64 {
+        let turned = |k: u32| {
+            let (s, c) = (f64::from(k) * TAU / f64::from(TURNS)).sin_cos();
+            let turn = |w: DVec3| DVec3::new(c * w.x - s * w.y, s * w.x + c * w.y, w.z);
+            let f = (self.f)(turn(wi), turn(wo));
+            if f > 0.0 && f.is_finite() { f } else { 0.0 }
+        };
+        (0..TURNS).map(turned).sum::<f64>() / f64::from(TURNS)
+    }
 }
+
+/// Azimuths of [`Target::turned_mean`].
+const TURNS: u32 = 8;
 
 impl fmt::Debug for Target<'_> {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {

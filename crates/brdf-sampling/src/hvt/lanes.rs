@@ -180,14 +180,14 @@ fn inverse(v: &Views, r0: f32, wi: &Lanes3) -> Points {
         let r = xy * (2.0 / (len2 + len * hz)).sqrt();
         let root = (r * r + r0 * r0).sqrt();
         let (l, y_slope) = pseudo_log(((r + root) * inv_r0).max(1.0));
-        let max = half_max(v.sin_o[k], v.cos_o[k], xy, hz);
-        let one_plus_max = 1.0 + (1.0 - max).sqrt();
         let e = xy + hx.abs();
         let inv = 1.0 / (2.0 * xy * e).max(f32::MIN_POSITIVE);
         let (large, small) = ((e * e * inv).min(1.0), (hy * hy * inv).min(1.0));
         let ahead = hx >= 0.0;
         let cos2 = if ahead { large } else { small };
         let sin2 = if ahead { small } else { large };
+        let max = half_max(v.sin_o[k], v.cos_o[k], xy, hz).max(sin2);
+        let one_plus_max = 1.0 + (1.0 - max).sqrt();
         let one_plus = 1.0 + cos2.sqrt();
         let ratio = (sin2 * one_plus_max / (one_plus * max)).sqrt().min(1.0);
         let reach = (max / (one_plus_max * one_plus)).sqrt();
@@ -203,7 +203,8 @@ fn inverse(v: &Views, r0: f32, wi: &Lanes3) -> Points {
 fn half_max(sin_o: f32, cos_o: f32, s: f32, c: f32) -> f32 {
     let n = -cos_o * (c - s) * (c + s);
     let d = 2.0 * sin_o * s * c;
-    (0.5 * (d - n) / d.max(f32::MIN_POSITIVE)).clamp(1e-10, 1.0)
+    let rounding = 2e-7 * (s * s + c * c);
+    (0.5 * (d - n + rounding) / d.max(f32::MIN_POSITIVE)).clamp(1e-10, 1.0)
 }
 
 #[inline]

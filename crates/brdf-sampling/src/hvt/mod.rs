@@ -61,6 +61,14 @@ impl Hvt {
     /// A target that is zero everywhere gives the cosine.
     #[must_use]
     pub fn new(target: Target<'_>, options: HvtOptions) -> Self {
+        if target.symmetry.isotropic {
+            return Self::build(target, options);
+        }
+        let mean = |wi: DVec3, wo: DVec3| target.turned_mean(wi, wo);
+        Self::build(Target::new(&mean), options)
+    }
+
+    fn build(target: Target<'_>, options: HvtOptions) -> Self {
         let shape = options.shape();
         let r0 = match options.r0 {
             Some(r0) => r0.clamp(1e-4, 1.0),

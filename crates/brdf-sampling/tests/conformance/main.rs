@@ -69,25 +69,40 @@ fn chi_square_of_every_sampler() {
     run_chi_square(&entries, &cases, &[33.3], 3_000);
 }
 
+/// Straight from above the horizon of the chart is a full circle: rounding must not tear it.
 #[test]
-fn slow_chi_square_of_every_sampler_at_every_angle() {
-    let entries: Vec<&Entry> = ALL.iter().collect();
-    run_chi_square(&entries, &targets::all(), &THETA_DEG, 30_000);
+fn chi_square_at_the_normal() {
+    let mut cases = targets::all();
+    cases.retain(|c| c.name == "lambert");
+    let tables = ["Inversion", "Hvt tiny", "Hvt default"];
+    let entries: Vec<&Entry> = ALL.iter().filter(|e| tables.contains(&e.name)).collect();
+    run_chi_square(&entries, &cases, &[0.0], 20_000);
 }
 
 #[test]
-fn sample_and_pdf_agree_and_nothing_is_wasted() {
+fn slow_chi_square_of_every_sampler_at_every_angle() {
+    let entries: Vec<&Entry> = ALL.iter().collect();
+    run_chi_square(&entries, &targets::all(), &THETA_DEG, 20_000);
+}
+
+/// One test, because building the samplers is what takes the time.
+#[test]
+fn every_sampler_keeps_its_promises() {
     for case in targets::all() {
         for entry in ALL {
             let sampler = (entry.build)(&case);
+            let name = format!("{} on {}", entry.name, case.name);
             for theta in THETA_DEG {
-                let name = format!("{} on {} at {theta}", entry.name, case.name);
-                agreement(&*sampler, viewer(theta), &name);
+                agreement(&*sampler, viewer(theta), &format!("{name} at {theta}"));
             }
+            support(&*sampler, &case, &name);
+            horizon(&*sampler, &name);
+            extremes(&*sampler, &name);
         }
     }
 }
 
+/// The same density from sample and pdf; unit vectors above the horizon; nothing wasted.
 fn agreement(sampler: &dyn DirectionSampler, wo: DVec3, name: &str) {
     let mut rng = testkit::Rng::new(3);
     let n = 2_000;
@@ -113,72 +128,46 @@ fn agreement(sampler: &dyn DirectionSampler, wo: DVec3, name: &str) {
     assert!(off == 0, "{name}: {off} of {n} disagree by more than 1e-6");
 }
 
-#[test]
-fn support_covers_the_target() {
-    for case in targets::all() {
-        for entry in ALL {
-            let sampler = (entry.build)(&case);
-            let mut rng = testkit::Rng::new(4);
-            for _ in 0..2_000 {
-                let [x, y] = rng.uniform2();
-                let [z, w] = rng.uniform2();
-                let wi = direction((1.0 - x).acos(), 6.3 * y);
-                let wo = direction((1.0 - z).acos().min(1.57), 6.3 * w);
-                if (case.f)(wi, wo) > 0.0 {
-                    let pdf = sampler.pdf(wi, wo);
-                    assert!(
-                        pdf > 0.0 && pdf.is_finite(),
-                        "{} on {}: {pdf} at {wi}, {wo}",
-                        entry.name,
-                        case.name
-                    );
-                }
-            }
+/// A positive density wherever the target is positive.
+fn support(sampler: &dyn DirectionSampler, case: &Case, name: &str) {
+    let mut rng = testkit::Rng::new(4);
+    for _ in 0..2_000 {
+        let ([x, y], [z, w]) = (rng.uniform2(), rng.uniform2());
+        let wi = direction((1.0 - x).acos(), 6.3 * y);
+        let wo = direction((1.0 - z).acos().min(1.57), 6.3 * w);
+        if (case.f)(wi, wo) > 0.0 {
+            let pdf = sampler.pdf(wi, wo);
+            assert!(pdf > 0.0 && pdf.is_finite(), "{name}: {pdf} at {wi}, {wo}");
         }
     }
 }
 
-#[test]
-fn below_the_horizon_there_is_nothing() {
+/// Nothing below or at the horizon, on either side.
+fn horizon(sampler: &dyn DirectionSampler, name: &str) {
     let (up, down) = (direction(0.4, 0.2), direction(2.0, 0.1));
-    let level = DVec3::new(1.0, 0.0, 0.0);
-    for case in targets::all() {
-        for entry in ALL {
-            let sampler = (entry.build)(&case);
-            let u = DVec2::new(0.3, 0.6);
-            for wo in [down, level] {
-                assert!(sampler.sample(wo, u).is_none(), "{}: {wo}", entry.name);
-                assert!(sampler.pdf(up, wo) <= 0.0, "{}: {wo}", entry.name);
-            }
-            assert!(sampler.pdf(down, up) <= 0.0, "{}: below", entry.name);
-        }
+    for wo in [down, DVec3::X] {
+        let sample = sampler.sample(wo, DVec2::new(0.3, 0.6));
+        assert!(sample.is_none(), "{name}: {wo}");
+        assert!(sampler.pdf(up, wo) <= 0.0, "{name}: {wo}");
     }
+    assert!(sampler.pdf(down, up) <= 0.0, "{name}: below");
 }
 
-#[test]
-fn extreme_arguments_do_not_panic() {
+/// No panic for any argument, and a sample for every legal one.
+fn extremes(sampler: &dyn DirectionSampler, name: &str) {
     let views = [
         DVec3::Z,
         direction(1.5706, 1.0),
         DVec3::new(1.0, 0.0, 1e-30),
         DVec3::new(f64::NAN, 0.0, 0.5),
     ];
-    for case in targets::all() {
-        for entry in ALL {
-            let sampler = (entry.build)(&case);
-            for wo in views {
-                for x in [0.0, 0.5, 1.0 - f64::EPSILON, 1.0] {
-                    for y in [0.0, 0.5, 1.0 - f64::EPSILON, 1.0] {
-                        let s = sampler.sample(wo, DVec2::new(x, y));
-                        if let Some(s) = s.filter(|_| wo.is_finite() && x < 1.0 && y < 1.0) {
-                            let name = entry.name;
-                            assert!(
-                                s.wi.is_finite() && s.pdf > 0.0,
-                                "{name} {wo} {x} {y}: {s:?}"
-                            );
-                        }
-                    }
-                }
+    let edges = [0.0, 0.5, 1.0 - f64::EPSILON, 1.0];
+    for wo in views {
+        for (x, y) in edges.into_iter().flat_map(|x| edges.map(|y| (x, y))) {
+            let s = sampler.sample(wo, DVec2::new(x, y));
+            if let Some(s) = s.filter(|_| wo.is_finite() && x < 1.0 && y < 1.0) {
+                let sound = s.wi.is_finite() && s.pdf > 0.0;
+                assert!(sound, "{name} {wo} {x} {y}: {s:?}");
             }
         }
     }
