@@ -1,2 +1,47 @@
-//! gonio
-fn main() {}
+//! The project's chores: one verb, one file. Without a verb: the pre-push check.
+
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program for people at a terminal")]
+#![expect(clippy::disallowed_methods, reason = "chores read and write the repository's files")]
+
+mod check;
+mod process;
+mod render_all;
+mod repo;
+mod test;
+mod tidy;
+
+use anyhow::{Result, bail};
+use std::process::ExitCode;
+
+const HELP: &str = "\
+cargo xtask               the pre-push check: fmt, clippy, tests, doc tests, tidy
+cargo xtask test          the tests; --slow: the slow statistics and golden renders instead
+cargo xtask tidy          the repository's own rules
+cargo xtask render-all    all scenes their data allow, with a contact sheet; see --help
+";
+
+fn main() -> ExitCode {
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    match run(&args) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("xtask: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(args: &[String]) -> Result<()> {
+    let rest = args.get(1..).unwrap_or_default();
+    match args.first().map(String::as_str) {
+        None => check::run(),
+        Some("test") => test::run(rest),
+        Some("tidy") => tidy::run(),
+        Some("render-all") => render_all::run(rest),
+        Some("help" | "--help" | "-h") => {
+            print!("{HELP}");
+            Ok(())
+        }
+        Some(other) => bail!("unknown verb {other:?}\n{HELP}"),
+    }
+}

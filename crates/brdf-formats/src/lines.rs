@@ -17,6 +17,18 @@ impl Line<'_> {
         self.text.trim_ascii().is_empty()
     }
 
+    /// The text after a leading `#`, without blanks around it.
+    pub(crate) fn comment(&self) -> Option<&[u8]> {
+        let text = self.text.trim_ascii().strip_prefix(b"#")?;
+        Some(text.trim_ascii())
+    }
+
+    /// The words between blanks.
+    pub(crate) fn words(&self) -> impl Iterator<Item = &[u8]> {
+        let words = self.text.split(u8::is_ascii_whitespace);
+        words.filter(|word| !word.is_empty())
+    }
+
     /// The first byte that no text line holds: a control character other than tab.
     pub(crate) fn control(&self) -> Option<u8> {
         let mut bytes = self.text.iter().copied();

@@ -107,6 +107,12 @@ impl MerlFile {
         self.bytes.clone()
     }
 
+    /// The file's bytes, handed back without a copy.
+    #[must_use]
+    pub fn into_bytes(self) -> Vec<u8> {
+        self.bytes
+    }
+
     /// Writes the file's bytes.
     ///
     /// # Errors

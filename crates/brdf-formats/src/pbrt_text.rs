@@ -4,7 +4,7 @@ use crate::channels::{Channels, check_wavelengths};
 use crate::error::{Error, Place, quote};
 use crate::file::File;
 use crate::format::Format;
-use crate::lines::Lines;
+use crate::lines::{Line, Lines};
 use crate::number;
 use crate::rows::{Rows, Separator};
 use std::io::{self, Write};
@@ -73,8 +73,8 @@ impl PbrtTextFile {
     /// The comment lines without their `#` and the blanks around.
     pub fn comments(&self) -> impl Iterator<Item = String> + '_ {
         Lines::new(self.header()).filter_map(|line| {
-            let text = line.text.trim_ascii().strip_prefix(b"#")?;
-            Some(String::from_utf8_lossy(text.trim_ascii()).into_owned())
+            let text = line.comment()?;
+            Some(String::from_utf8_lossy(text).into_owned())
         })
     }
 
@@ -161,24 +161,20 @@ pub(crate) const FORMAT: Format = Format {
 /// A wavelength count alone on the first line, and the usual comment above
 /// it or numbers below it.
 fn detect(prefix: &[u8], _total_len: u64) -> bool {
-    let lines = Lines::new(prefix).take_while(|line| line.control().is_none());
-    let (comments, data): (Vec<_>, Vec<_>) = lines
+    let (comments, data): (Vec<_>, Vec<_>) = Lines::new(prefix)
         .filter(|line| !line.is_blank())
         .take(DETECT_LINES)
-        .partition(|line| line.text.starts_with(b"#"));
-    let announced = comments.iter().any(|line| {
-        let words = line.text[1..].trim_ascii().to_ascii_lowercase();
-        words.starts_with(b"num wls")
-    });
+        .partition(|line| line.comment().is_some());
+    let announces = |text: &[u8]| text.to_ascii_lowercase().starts_with(b"num wls");
+    if comments.iter().filter_map(Line::comment).any(announces) {
+        return true;
+    }
     let [count, wavelengths, ..] = &data[..] else {
-        return announced;
+        return false;
     };
     let is_number = |word: &[u8]| number::parse(word).is_some();
-    let first = wavelengths
-        .text
-        .split(u8::is_ascii_whitespace)
-        .find(|w| !w.is_empty());
-    announced || (parse_count(count.text.trim_ascii()).is_some() && first.is_some_and(is_number))
+    parse_count(count.text.trim_ascii()).is_some()
+        && wavelengths.words().next().is_some_and(is_number)
 }
 
 /// Lines that detection looks at.
@@ -195,6 +191,7 @@ fn parse_count(word: &[u8]) -> Option<usize> {
 
 /// Takes the lines up to the last wavelength.
 fn parse_wavelengths(lines: &mut Lines<'_>) -> Result<Vec<f64>, Error> {
+    const COUNT: &str = "wavelength count";
     let mut count = None;
     let mut nm = Vec::new();
     for line in lines.by_ref() {
@@ -203,44 +200,17 @@ fn parse_wavelengths(lines: &mut Lines<'_>) -> Result<Vec<f64>, Error> {
             let found = format!("byte 0x{control:02x}");
             return Err(Error::invalid(place, "header", "text", found));
         }
-        if line.text.trim_ascii_start().starts_with(b"#") || line.is_blank() {
+        if line.comment().is_some() || line.is_blank() {
             continue;
         }
         let Some(count) = count else {
             let word = line.text.trim_ascii();
-            count = parse_count(word);
-            if count.is_none() {
-                let expected = "a positive count alone on its line";
-                return Err(Error::invalid(
-                    place,
-                    "wavelength count",
-                    expected,
-                    quote(word),
-                ));
-            }
+            let expected = "a positive count alone on its line";
+            let bad = || Error::invalid(place, COUNT, expected, quote(word));
+            count = Some(parse_count(word).ok_or_else(bad)?);
             continue;
         };
-        for word in line
-            .text
-            .split(u8::is_ascii_whitespace)
-            .filter(|w| !w.is_empty())
-        {
-            let Some(number) = number::parse(word) else {
-                let found = quote(word);
-                return Err(Error::invalid(
-                    place,
-                    "wavelengths",
-                    "a wavelength in nm",
-                    found,
-                ));
-            };
-            nm.push(number.value);
-        }
-        if nm.len() > count {
-            let found = format!("{} up to here", nm.len());
-            let expected = format!("{count} numbers, the last ending its line");
-            return Err(Error::invalid(place, "wavelengths", expected, found));
-        }
+        take_wavelengths(line, count, &mut nm)?;
         if nm.len() == count {
             check_wavelengths(&nm, place, "wavelengths")?;
             return Ok(nm);
@@ -249,7 +219,7 @@ fn parse_wavelengths(lines: &mut Lines<'_>) -> Result<Vec<f64>, Error> {
     let place = Place::Line(lines.number().max(1));
     let (field, expected) = match count {
         Some(count) => ("wavelengths", format!("{count} numbers")),
-        None => ("wavelength count", "a positive count".into()),
+        None => (COUNT, "a positive count".into()),
     };
     Err(Error::invalid(
         place,
@@ -257,4 +227,20 @@ fn parse_wavelengths(lines: &mut Lines<'_>) -> Result<Vec<f64>, Error> {
         expected,
         "the end of the file",
     ))
+}
+
+/// Adds the wavelengths of a line, which must not be more than `count` in all.
+fn take_wavelengths(line: Line<'_>, count: usize, nm: &mut Vec<f64>) -> Result<(), Error> {
+    let (place, field) = (Place::Line(line.number), "wavelengths");
+    for word in line.words() {
+        let number = number::parse(word);
+        let bad = || Error::invalid(place, field, "a wavelength in nm", quote(word));
+        nm.push(number.ok_or_else(bad)?.value);
+    }
+    if nm.len() > count {
+        let expected = format!("{count} numbers, the last ending its line");
+        let found = format!("{} up to here", nm.len());
+        return Err(Error::invalid(place, field, expected, found));
+    }
+    Ok(())
 }

@@ -132,7 +132,7 @@ impl RglFile {
 pub(crate) const FORMAT: Format = Format {
     name: "rgl",
     title: "RGL adaptive measurement, tensor file",
-    magic: "`tensor_file` and a NUL, and not KAIST",
+    magic: "`tensor_file` and a NUL, and no field named `M`",
     extensions: &["bsdf"],
     detect,
     read,

@@ -194,7 +194,7 @@ impl<'a> Body<'a> {
 
     /// Comments belong above the rows, where they are kept.
     fn is_comment(&self, line: Line<'_>) -> Result<bool, Error> {
-        if self.separator == Separator::Comma || !line.text.starts_with(b"#") {
+        if self.separator == Separator::Comma || line.comment().is_none() {
             return Ok(false);
         }
         if self.ends.is_none() {

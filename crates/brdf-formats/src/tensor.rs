@@ -157,6 +157,12 @@ impl<'a> Tensor<'a> {
         &self.entry.shape
     }
 
+    /// How many elements it has: the product of the shape.
+    #[must_use]
+    pub fn element_count(&self) -> usize {
+        self.bytes.len() / self.dtype().size()
+    }
+
     /// Its data, little-endian, as it stands in the file.
     #[must_use]
     pub fn bytes(&self) -> &'a [u8] {

@@ -1,1 +1,40 @@
-//! Analytic reflectance models.
+//! Analytic reflectance models, one a file, and the list of them.
+//!
+//! Every model is a plain struct of its parameters, implements [`brdf::Brdf`] for any number of channels
+//! and [`brdf::DirectionSampler`] with the exact density of its own sampling. [`MODELS`] lists them with
+//! their parameters and the laws they keep; [`parse_model`] makes one from `name:key=value,...`.
+//!
+//! Goals: correct to the last digits at the extremes (roughness 1e-4, exponents of 1e6, grazing angles),
+//! f64 first, f32 packets for what renderers call most. Not here: fitting, measured data, files.
+
+mod ashikhmin_shirley;
+mod blinn_phong;
+mod cook_torrance;
+mod eon;
+mod fresnel;
+mod ggx;
+mod half;
+mod lafortune;
+mod lambert;
+mod lanes;
+mod lobe;
+mod oren_nayar;
+mod phong;
+mod registry;
+mod ward;
+
+pub use ashikhmin_shirley::AshikhminShirley;
+pub use blinn_phong::BlinnPhong;
+pub use cook_torrance::CookTorrance;
+pub use eon::Eon;
+pub use fresnel::{Fresnel, METALS, Metal};
+pub use ggx::Ggx;
+pub use lafortune::{Lafortune, LafortuneLobe};
+pub use lambert::Lambert;
+pub use oren_nayar::OrenNayar;
+pub use phong::{Phong, PhongForm};
+pub use registry::{
+    Built, DefaultValue, Laws, MODELS, ModelError, ModelInfo, Parameter, ParsedModel, Values,
+    parse_model, parse_model_n,
+};
+pub use ward::{Ward, WardForm};

@@ -1,7 +1,9 @@
 //! Build and look-up times of half-difference tables.
 
+#![expect(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
+
 use brdf::{Brdf, LANES, Lanes3, Status};
-use brdf_table::{GriddedN, HalfDiffTable, Interpolation, PhiDomain};
+use brdf_table::{CellPolicy, GriddedN, HalfDiffTable, Interpolation, PhiDomain};
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use glam::DVec3;
 use spectrum::{Basis, RgbSpace};
@@ -23,14 +25,21 @@ fn lobe(wi: DVec3, wo: DVec3, out: &mut [f64]) -> Status {
 
 fn table() -> Arc<HalfDiffTable> {
     let basis = Basis::Rgb(RgbSpace::srgb());
-    Arc::new(HalfDiffTable::from_fn(MERL, PhiDomain::Reciprocal, basis, lobe))
+    Arc::new(HalfDiffTable::from_fn(
+        MERL,
+        PhiDomain::Reciprocal,
+        basis,
+        lobe,
+    ))
 }
 
 /// Pairs of directions: independent ones, or slowly turning ones as neighbouring pixels see them.
 fn packets(coherent: bool) -> Vec<(Lanes3, Lanes3)> {
     let mut state = 0x9E37_79B9_7F4A_7C15_u64;
     let mut uniform = move || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         (state >> 40) as f64 / (1_u64 << 24) as f64
     };
     let mut made = Vec::with_capacity(PACKETS);
@@ -88,6 +97,10 @@ fn build(c: &mut Criterion) {
     group.throughput(Throughput::Elements((MERL[0] * MERL[1] * MERL[2]) as u64));
     group.bench_function("from-fn", |b| {
         b.iter_batched(|| (), |()| table(), BatchSize::PerIteration);
+    });
+    let (file, _) = table().to_merl().unwrap();
+    group.bench_function("from-merl", |b| {
+        b.iter(|| HalfDiffTable::from_merl(black_box(&file), CellPolicy::AnyNegative).unwrap());
     });
     group.finish();
 }

@@ -1,77 +1,96 @@
 //! Which storage of the nodes reads fastest: the measurement behind the layout in `docs/tables.md`.
 //!
-//! Same random cubes for every layout, table of MERL's size, three channels, packets of 16 look-ups.
+//! The same cubes for every layout, table of MERL's size, three channels, packets of 16 look-ups.
 
-use brdf::LANES;
+use brdf::{HalfDiff, LANES};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use half::f16;
+use std::f64::consts::{FRAC_2_PI, PI};
 use std::hint::black_box;
 
-const DIMS: [usize; 3] = [91, 91, 182];
-const NODES: usize = DIMS[0] * DIMS[1] * DIMS[2];
+const ROW: usize = 182;
+const NODES: usize = 91 * 91 * ROW;
 const PACKETS: usize = 4096;
 
-type Cube = ([u32; 3], [f32; 3]);
+/// Lowest corner of a cube of eight nodes, and the place in it.
+type Cube = (usize, [f32; 3]);
 
+/// Cubes as pairs of independent directions, uniform over the hemisphere, need them.
 fn cubes() -> Vec<[Cube; LANES]> {
-    let mut state = 0x9E37_79B9_7F4A_7C15_u64;
-    let mut below = move |n: usize| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        let u = (state >> 40) as f32 / (1_u64 << 24) as f32 * (n - 1) as f32;
-        (u as u32, u.fract())
+    let mut rng = testkit::Rng::new(1);
+    let mut above = || {
+        brdf::direction(
+            (1.0 - rng.uniform()).acos(),
+            std::f64::consts::TAU * rng.uniform(),
+        )
     };
     let mut cube = || {
-        let [h, d, p] = DIMS.map(&mut below);
-        ([h.0, d.0, p.0], [h.1, d.1, p.1])
+        let at = HalfDiff::new(above(), above());
+        let positions = [
+            90.0 * (at.theta_h * FRAC_2_PI).sqrt(),
+            90.0 * at.theta_d * FRAC_2_PI,
+            180.0 * at.phi_d.rem_euclid(PI) / PI,
+        ];
+        let [h, d, p] = positions.map(|x| (x as usize).min(179));
+        (
+            h * ROW * 91 + d * ROW + p,
+            positions.map(|x| x.fract() as f32),
+        )
     };
-    (0..PACKETS).map(|_| std::array::from_fn(|_| cube())).collect()
+    (0..PACKETS)
+        .map(|_| std::array::from_fn(|_| cube()))
+        .collect()
 }
 
-/// Sums the eight corners; `read` gives the channels of the node at `[h, d, p]`.
+/// Reads the corners of all lanes, then sums their `M` channels.
 #[inline(always)]
-fn gather(cubes: &[Cube; LANES], read: impl Fn(u32, u32, u32) -> [f32; 3]) -> [[f32; LANES]; 3] {
-    let mut out = [[0.0; LANES]; 3];
-    for (k, &([h, d, p], [t_h, t_d, t_p])) in cubes.iter().enumerate() {
-        let rows = [
-            (h, d, (1.0 - t_h) * (1.0 - t_d)),
-            (h, d + 1, (1.0 - t_h) * t_d),
-            (h + 1, d, t_h * (1.0 - t_d)),
-            (h + 1, d + 1, t_h * t_d),
-        ];
-        let mut sum = [0.0; 3];
-        for (h, d, weight) in rows {
-            let (low, high) = (read(h, d, p), read(h, d, p + 1));
-            for c in 0..3 {
-                sum[c] += weight * (low[c] + t_p * (high[c] - low[c]));
-            }
+fn gather<T: Copy + Default, const M: usize>(
+    nodes: &[T],
+    cubes: &[Cube; LANES],
+    widen: impl Fn(T) -> [f32; M],
+) -> [[f32; LANES]; M] {
+    let mut corners = [[[T::default(); 2]; 4]; LANES];
+    for (corners, (base, _)) in corners.iter_mut().zip(cubes) {
+        let starts = [*base, base + ROW, base + ROW * 91, base + ROW * 92];
+        for (pair, start) in corners.iter_mut().zip(starts) {
+            pair.copy_from_slice(&nodes[start..start + 2]);
         }
-        for c in 0..3 {
-            out[c][k] = sum[c];
+    }
+    let mut out = [[0.0; LANES]; M];
+    for k in 0..LANES {
+        let [t_h, t_d, t_p] = cubes[k].1;
+        let weights = [
+            (1.0 - t_h) * (1.0 - t_d),
+            (1.0 - t_h) * t_d,
+            t_h * (1.0 - t_d),
+            t_h * t_d,
+        ];
+        for (pair, weight) in corners[k].iter().zip(weights) {
+            let (low, high) = (widen(pair[0]), widen(pair[1]));
+            for c in 0..M {
+                out[c][k] += weight * (low[c] + t_p * (high[c] - low[c]));
+            }
         }
     }
     out
 }
 
-fn linear(h: u32, d: u32, p: u32) -> usize {
-    (h as usize * DIMS[1] + d as usize) * DIMS[2] + p as usize
-}
-
-/// Bricks of 2 x 2 x 2 nodes.
-fn bricks(h: u32, d: u32, p: u32) -> usize {
-    let brick = ((h >> 1) as usize * DIMS[1].div_ceil(2) + (d >> 1) as usize) * DIMS[2].div_ceil(2) + (p >> 1) as usize;
-    brick * 8 + ((h & 1) << 2 | (d & 1) << 1 | p & 1) as usize
+/// Half to single precision by shifts and one multiplication: no hardware conversion, no infinities.
+fn widen(h: f16) -> f32 {
+    let bits = u32::from(h.to_bits());
+    let magnitude = f32::from_bits((bits & 0x7FFF) << 13) * f32::from_bits(0x7780_0000);
+    f32::from_bits(magnitude.to_bits() | (bits & 0x8000) << 16)
 }
 
 fn layouts(c: &mut Criterion) {
     let cubes = cubes();
-    let bricked = DIMS.map(|n| n.div_ceil(2)).iter().product::<usize>() * 8;
     let value = |k: usize| (k % 1000) as f32 * 0.01;
-    let interleaved: Vec<[f32; 3]> = (0..NODES).map(|k| [value(k); 3]).collect();
-    let padded: Vec<[f32; 4]> = (0..NODES).map(|k| [value(k); 4]).collect();
+    let all = |k: usize| f16::from_f32(value(k));
+    let f32x3: Vec<[f32; 3]> = (0..NODES).map(|k| [value(k); 3]).collect();
+    let f32x4: Vec<[f32; 4]> = (0..NODES).map(|k| [value(k); 4]).collect();
     let planes: [Vec<f32>; 3] = std::array::from_fn(|_| (0..NODES).map(value).collect());
-    let halves: Vec<[f16; 3]> = (0..NODES).map(|k| [f16::from_f32(value(k)); 3]).collect();
-    let halves4: Vec<[f16; 4]> = (0..NODES).map(|k| [f16::from_f32(value(k)); 4]).collect();
-    let f32_bricks: Vec<[f32; 3]> = (0..bricked).map(|k| [value(k); 3]).collect();
+    let f16x3: Vec<[f16; 3]> = (0..NODES).map(|k| [all(k); 3]).collect();
+    let f16x4: Vec<[f16; 4]> = (0..NODES).map(|k| [all(k); 4]).collect();
     let mut group = c.benchmark_group("brdf-table/layout");
     group.throughput(Throughput::Elements((PACKETS * LANES) as u64));
     let mut run = |name: &str, read: &dyn Fn(&[Cube; LANES]) -> [[f32; LANES]; 3]| {
@@ -83,21 +102,17 @@ fn layouts(c: &mut Criterion) {
             });
         });
     };
-    run("f32x3", &|q| gather(q, |h, d, p| interleaved[linear(h, d, p)]));
-    run("f32x4", &|q| gather(q, |h, d, p| {
-        let [r, g, b, _] = padded[linear(h, d, p)];
+    run("f32x3", &|q| gather(&f32x3, q, |v| v));
+    run("f32x4", &|q| gather(&f32x4, q, |[r, g, b, _]| [r, g, b]));
+    run("planar", &|q| {
+        let [r, g, b] = &planes;
+        let [[r], [g], [b]] = [r, g, b].map(|plane| gather(plane, q, |v| [v]));
         [r, g, b]
-    }));
-    run("planar", &|q| gather(q, |h, d, p| {
-        let k = linear(h, d, p);
-        [planes[0][k], planes[1][k], planes[2][k]]
-    }));
-    run("f16x3", &|q| gather(q, |h, d, p| halves[linear(h, d, p)].map(f16::to_f32)));
-    run("f16x4", &|q| gather(q, |h, d, p| {
-        let [r, g, b, _] = halves4[linear(h, d, p)];
-        [r, g, b].map(f16::to_f32)
-    }));
-    run("f32x3-bricks", &|q| gather(q, |h, d, p| f32_bricks[bricks(h, d, p)]));
+    });
+    run("f16x3", &|q| gather(&f16x3, q, |v| v.map(widen)));
+    run("f16x4", &|q| {
+        gather(&f16x4, q, |[r, g, b, _]| [r, g, b].map(widen))
+    });
     group.finish();
 }
 

@@ -2,9 +2,14 @@
 
 pub mod grid;
 pub mod rgl;
+pub mod scattered;
 
 pub use grid::{
-    CellPolicy, CellReport, GridError, Gridded, GriddedN, HalfDiffTable, Interpolation, PhiDomain,
-    TableBuilder, directional_albedo, mix,
+    CellPolicy, CellReport, GridError, Gridded, GriddedN, HalfDiffTable, Interpolation, MerlLoss,
+    PhiDomain, TableBuilder, directional_albedo, mix,
 };
-pub use rgl::{RglError, RglTable};
+pub use rgl::{RglN, RglTable};
+pub use scattered::{
+    BeyondPolicy, CloudError, DeadRows, GapPolicy, KdNearest, LayerMode, LayeredTable,
+    NegativePolicy, Policies, Resampled, SampleCloud, ThinPlate, resample,
+};

@@ -20,3 +20,19 @@ pub fn data_dir_or_skip() -> Option<PathBuf> {
     }
     dir
 }
+
+/// The bytes of a file below [`data_dir`]; `None`, after printing one `skipped:` line, if the variable or the
+/// file is missing.
+#[must_use]
+#[expect(clippy::print_stderr, reason = "a skipped test must say so")]
+#[expect(
+    clippy::disallowed_methods,
+    reason = "tests read measured files directly"
+)]
+pub fn read_data(path: &str) -> Option<Vec<u8>> {
+    let bytes = std::fs::read(data_dir_or_skip()?.join(path)).ok();
+    if bytes.is_none() {
+        eprintln!("skipped: {path} is not in GONIO_DATA");
+    }
+    bytes
+}

@@ -17,7 +17,7 @@ mod significance;
 pub mod special;
 
 pub use close::{assert_close, assert_relative, relative_error};
-pub use data::{data_dir, data_dir_or_skip};
+pub use data::{data_dir, data_dir_or_skip, read_data};
 pub use domain::Domain;
 pub use mean::{MeanTest, t_test, within_standard_errors, z_test};
 pub use rng::Rng;

@@ -113,7 +113,9 @@ impl TableBuilder {
         let scale = self.scales[channel];
         let cell = self.layout.cell(self.next);
         let node = self.layout.node(self.next);
-        let slots = self.nodes[node * channels + channel..].iter_mut().step_by(channels);
+        let slots = self.nodes[node * channels + channel..]
+            .iter_mut()
+            .step_by(channels);
         for ((k, v), slot) in values.iter().enumerate().zip(slots) {
             let scaled = (v * scale) as f32;
             if !scaled.is_finite() {

@@ -51,7 +51,9 @@ impl HalfDiffTable {
     pub fn map_channels(&self, matrix: &[Vec<f64>], basis: Basis) -> Result<Self, GridError> {
         let check = |expected: usize, found: usize| {
             let equal = expected == found;
-            equal.then_some(()).ok_or(GridError::Channels { expected, found })
+            equal
+                .then_some(())
+                .ok_or(GridError::Channels { expected, found })
         };
         check(self.channels(), matrix.len())?;
         for (index, row) in matrix.iter().enumerate() {
@@ -64,7 +66,11 @@ impl HalfDiffTable {
         for node in 0..self.layout().nodes() {
             let old = self.node_values(node);
             for j in 0..basis.len() {
-                let sum: f64 = old.iter().zip(matrix).map(|(v, row)| f64::from(*v) * row[j]).sum();
+                let sum: f64 = old
+                    .iter()
+                    .zip(matrix)
+                    .map(|(v, row)| f64::from(*v) * row[j])
+                    .sum();
                 nodes.push(sum as f32);
             }
         }
@@ -74,14 +80,22 @@ impl HalfDiffTable {
     /// The table read at the cell centres of another grid. Cells that are read from filled ones are filled.
     #[must_use]
     pub fn resample(&self, dims: [usize; 3], phi: PhiDomain, how: Interpolation) -> Self {
-        Self::from_fn(dims, phi, self.basis().clone(), |wi, wo, out| self.eval(wi, wo, how, out))
+        Self::from_fn(dims, phi, self.basis().clone(), |wi, wo, out| {
+            self.eval(wi, wo, how, out)
+        })
     }
 
     /// A table on the same grid from nodes that hold a value everywhere.
     fn rebuilt(&self, basis: Basis, nodes: Vec<f32>, valid: impl Fn([usize; 3]) -> bool) -> Self {
         let mut cells: Vec<Cell> = self
             .cell_indices()
-            .map(|cell| if valid(cell) { Cell::Valid } else { Cell::Filled })
+            .map(|cell| {
+                if valid(cell) {
+                    Cell::Valid
+                } else {
+                    Cell::Filled
+                }
+            })
             .collect();
         Self::seal(self.layout(), basis, nodes, &mut cells)
     }

@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 /// Why a half-difference table could not be built, combined or converted.
-#[derive(Clone, Debug, PartialEq, Error)]
+#[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum GridError {
     /// A dimension is zero, or the product does not fit in memory.
@@ -52,4 +52,13 @@ pub enum GridError {
         /// Position in the caller's list.
         index: usize,
     },
+    /// The target stores RGB only.
+    #[error("channels: expected R,G,B, found {found}")]
+    NotRgb {
+        /// Names of the channels.
+        found: String,
+    },
+    /// The file can't be read or written.
+    #[error(transparent)]
+    File(#[from] brdf_formats::Error),
 }

@@ -71,8 +71,14 @@ mod tests {
         for i in 0..100_000_u32 {
             let position = i as f32 * 0.000_913;
             let (whole, rest) = split(position, 91);
-            assert!(whole <= 90 && (0.0..=1.0).contains(&rest.min(1.0)), "{position}: {whole} {rest}");
-            assert!((whole as f32 + rest - position).abs() < 1e-5, "{position}: {whole} {rest}");
+            assert!(
+                whole <= 90 && (0.0..=1.0).contains(&rest.min(1.0)),
+                "{position}: {whole} {rest}"
+            );
+            assert!(
+                (whole as f32 + rest - position).abs() < 1e-5,
+                "{position}: {whole} {rest}"
+            );
         }
         assert_eq!(split(f32::NAN, 5).0.min(4), split(f32::NAN, 5).0);
         assert_eq!(split(0.0, 5).0, 0);

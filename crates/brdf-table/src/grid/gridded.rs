@@ -85,6 +85,7 @@ impl<const N: usize> Brdf<N> for GriddedN<N> {
 
     #[inline]
     fn eval_lanes(&self, wi: &Lanes3, wo: &Lanes3) -> [[f32; LANES]; N] {
-        self.lanes.eval(self.table.nodes(), self.interpolation, wi, wo)
+        self.lanes
+            .eval(self.table.nodes(), self.interpolation, wi, wo)
     }
 }

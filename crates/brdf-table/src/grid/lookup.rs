@@ -89,15 +89,16 @@ impl HalfDiffTable {
 
 /// The angles of a pair, phi_d in [0, span] of the domain.
 ///
-/// With h' = wi + wo and d' = wi - wo, d' is perpendicular to h', and its azimuth about h' is
-/// atan2(d'_y h'_x - d'_x h'_y, -d'_z |h'|). Swapping wi and wo flips both arguments exactly, so folding before
-/// the arc tangent makes the reciprocal case reciprocal to the last bit.
+/// With h' = wi + wo and d' = wi - wo, the azimuth of d' about h' is that of
+/// (h'_z (d'_xy . h'_xy) - |h'_xy|^2 d'_z, (d'_y h'_x - d'_x h'_y) |h'|). (For exact unit vectors the first is -d'_z |h'|^2; that
+/// shorter form loses digits where theta_h and theta_d are both small.) Swapping wi and wo flips both
+/// exactly, so folding before the arc tangent makes the reciprocal case reciprocal to the last bit.
 pub(crate) fn angles(wi: DVec3, wo: DVec3, phi: PhiDomain) -> HalfDiff {
     let (h, d) = (wi + wo, wi - wo);
     let h_xy = h.x.hypot(h.y);
     let h_len = h_xy.hypot(h.z);
-    let y = d.y * h.x - d.x * h.y;
-    let x = -d.z * h_len;
+    let y = (d.y * h.x - d.x * h.y) * h_len;
+    let x = h.z * (d.x * h.x + d.y * h.y) - h_xy * h_xy * d.z;
     let phi_d = match phi {
         PhiDomain::Reciprocal if y < 0.0 => (-y).atan2(-x),
         PhiDomain::Reciprocal if y == 0.0 => 0.0, // 0 and pi are one

@@ -14,6 +14,7 @@ mod lanes;
 mod layout;
 mod lookup;
 mod mask;
+mod merl;
 mod seal;
 mod table;
 
@@ -24,4 +25,5 @@ pub use error::GridError;
 pub use gridded::{Gridded, GriddedN};
 pub use layout::PhiDomain;
 pub use lookup::Interpolation;
+pub use merl::MerlLoss;
 pub use table::HalfDiffTable;

@@ -4,6 +4,7 @@ use brdf_formats::{Channels, File, detect, read};
 use std::path::PathBuf;
 
 /// The bytes of every file with this extension in a folder of the data; empty without data.
+#[expect(clippy::print_stdout, reason = "a skipped test says so")]
 fn data_files(folder: &str, extension: &str) -> Vec<(PathBuf, Vec<u8>)> {
     let Some(root) = std::env::var_os("GONIO_DATA") else {
         println!("skipped: GONIO_DATA is not set");

@@ -1,0 +1,139 @@
+//! Parameters: what a model takes, and the values it was given.
+
+use std::fmt;
+
+/// What a parameter is when the text does not say.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DefaultValue {
+    /// This number in every channel.
+    Value(f64),
+    /// Whatever this other parameter, listed before it, is.
+    SameAs(&'static str),
+    /// Nothing: the model does without it.
+    Absent,
+}
+
+/// One parameter of a model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameter {
+    /// What is typed.
+    pub name: &'static str,
+    /// What it means, one line.
+    pub title: &'static str,
+    /// Unit; empty for a pure number.
+    pub unit: &'static str,
+    /// Smallest and largest accepted value.
+    pub range: (f64, f64),
+    /// Value when not given.
+    pub default: DefaultValue,
+    /// Takes one value, or one a channel.
+    pub per_channel: bool,
+    /// Names that stand for values in R/G/B.
+    pub words: &'static [(&'static str, [f64; 3])],
+    /// Parameters that may not be given beside it.
+    pub excludes: &'static [&'static str],
+}
+
+impl Parameter {
+    /// A pure number for all channels together.
+    pub(crate) const fn scalar(
+        name: &'static str,
+        title: &'static str,
+        range: (f64, f64),
+        default: f64,
+    ) -> Self {
+        Self {
+            name,
+            title,
+            unit: "",
+            range,
+            default: DefaultValue::Value(default),
+            per_channel: false,
+            words: &[],
+            excludes: &[],
+        }
+    }
+
+    /// A reflectance, one or one a channel, [0, 1].
+    pub(crate) const fn albedo(name: &'static str, title: &'static str, default: f64) -> Self {
+        Self {
+            per_channel: true,
+            ..Self::scalar(name, title, (0.0, 1.0), default)
+        }
+    }
+
+    /// A microfacet roughness, [1e-4, 1].
+    pub(crate) const fn roughness(name: &'static str, title: &'static str, default: f64) -> Self {
+        Self::scalar(name, title, (1e-4, 1.0), default)
+    }
+
+    /// An exponent of a cosine, [0, 1e6].
+    pub(crate) const fn exponent(name: &'static str, title: &'static str, default: f64) -> Self {
+        Self::scalar(name, title, (0.0, 1e6), default)
+    }
+
+    /// A roughness that follows another one unless given.
+    pub(crate) const fn same(name: &'static str, title: &'static str, other: &'static str) -> Self {
+        Self {
+            default: DefaultValue::SameAs(other),
+            ..Self::roughness(name, title, 0.0)
+        }
+    }
+}
+
+/// The values of a model's parameters, complete: defaults are filled in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Values {
+    pub(super) entries: Vec<(&'static str, Vec<f64>)>,
+}
+
+impl Values {
+    /// The numbers of `name`; empty if the parameter is absent.
+    #[must_use]
+    pub fn get(&self, name: &str) -> &[f64] {
+        self.entries
+            .iter()
+            .find(|(n, _)| *n == name)
+            .map_or(&[], |(_, v)| v)
+    }
+
+    /// True unless the parameter is absent.
+    #[must_use]
+    pub fn is_given(&self, name: &str) -> bool {
+        !self.get(name).is_empty()
+    }
+
+    /// Name and numbers of every parameter that is not absent.
+    pub fn iter(&self) -> impl Iterator<Item = (&'static str, &[f64])> {
+        self.entries.iter().map(|(n, v)| (*n, v.as_slice()))
+    }
+
+    /// A parameter that has one number; NaN if it is absent.
+    pub(crate) fn scalar(&self, name: &str) -> f64 {
+        self.get(name).first().copied().unwrap_or(f64::NAN)
+    }
+
+    /// One number a channel; a single one stands for all. NaN if it is absent.
+    pub(crate) fn channels<const N: usize>(&self, name: &str) -> [f64; N] {
+        let v = self.get(name);
+        std::array::from_fn(|c| {
+            if v.len() == 1 {
+                v[0]
+            } else {
+                v.get(c).copied().unwrap_or(f64::NAN)
+            }
+        })
+    }
+}
+
+/// `alpha=0.1,kd=0.2/0.1/0.05`.
+impl fmt::Display for Values {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, (name, values)) in self.iter().enumerate() {
+            let values: Vec<_> = values.iter().map(f64::to_string).collect();
+            let comma = if i == 0 { "" } else { "," };
+            write!(f, "{comma}{name}={}", values.join("/"))?;
+        }
+        Ok(())
+    }
+}

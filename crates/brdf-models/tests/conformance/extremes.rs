@@ -1,0 +1,88 @@
+//! Every parameter at both ends of its range, directions at every edge: finite, never negative.
+
+use brdf::direction;
+use brdf_models::{DefaultValue, MODELS, ModelInfo, ParsedModel, parse_model};
+use glam::{DVec2, DVec3};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// The model with one parameter at the given value, the rest at default.
+fn with(info: &ModelInfo, name: &str, value: f64) -> ParsedModel<3> {
+    parse_model(&format!("{}:{name}={value}", info.name)).expect("the ends of a range are valid")
+}
+
+/// Directions at the pole, ordinary ones, and down to 1e-7 and 1e-12 rad above the horizon.
+fn directions() -> Vec<DVec3> {
+    let thetas = [
+        0.0,
+        1e-9,
+        1e-4,
+        0.3,
+        1.2,
+        FRAC_PI_2 - 1e-3,
+        FRAC_PI_2 - 1e-7,
+        FRAC_PI_2 - 1e-12,
+    ];
+    let phis = [0.0, 1e-9, 0.8, PI - 1e-9, PI, -2.0];
+    let mut all: Vec<_> = thetas
+        .iter()
+        .flat_map(|&t| phis.map(|p| direction(t, p)))
+        .collect();
+    // opposite along the surface, and so low that squares underflow
+    all.extend([
+        DVec3::new(1.0, 0.0, 1e-170),
+        DVec3::new(-1.0, 0.0, 1e-170),
+        DVec3::new(-1.0, 0.0, 1e-50),
+    ]);
+    all
+}
+
+fn check(model: &ParsedModel<3>) {
+    let directions = directions();
+    for &wo in &directions {
+        for &wi in &directions {
+            let f = model.built.brdf.eval(wi, wo);
+            assert!(
+                f.iter().all(|v| v.is_finite() && *v >= 0.0),
+                "{model}: f({wi}, {wo}) = {f:?}"
+            );
+            let pdf = model.built.sampler.pdf(wi, wo);
+            assert!(
+                pdf.is_finite() && pdf >= 0.0,
+                "{model}: pdf({wi}, {wo}) = {pdf}"
+            );
+        }
+        for u in [0.0, 1e-12, 0.3, 0.9, 1.0 - f64::EPSILON] {
+            for v in [0.0, 0.25, 0.5, 0.77, 1.0 - f64::EPSILON] {
+                if let Some(s) = model.built.sampler.sample(wo, DVec2::new(u, v)) {
+                    let sound =
+                        s.wi.is_finite() && s.pdf.is_finite() && s.pdf > 0.0 && s.wi.z > 0.0;
+                    assert!(sound, "{model}: sample({wo}, {u}, {v}) = {s:?}");
+                    assert!(
+                        (s.wi.length() - 1.0).abs() < 1e-9,
+                        "{model}: {s:?} is not of unit length"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn both_ends_of_every_range() {
+    for info in MODELS {
+        check(&parse_model(info.name).unwrap());
+        for p in info.parameters {
+            check(&with(info, p.name, p.range.0));
+            check(&with(info, p.name, p.range.1));
+        }
+    }
+}
+
+#[test]
+fn defaults_are_in_range() {
+    for p in MODELS.iter().flat_map(|m| m.parameters) {
+        if let DefaultValue::Value(v) = p.default {
+            assert!((p.range.0..=p.range.1).contains(&v), "{p:?}");
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! `gonio info FILE`: what a file is and holds.
+
+use super::Context;
+use super::eval::Channels;
+use crate::args::Info;
+use crate::load;
+use anyhow::Result;
+use brdf_formats::{File, MERL_SCALE};
+use scene_io::material::{Detail, LoadedMeasured};
+use serde::Serialize;
+use spectrum::{Basis, RgbSpace};
+
+#[derive(Serialize)]
+struct Report {
+    file: String,
+    format: &'static str,
+    title: &'static str,
+    dims: Vec<usize>,
+    #[serde(flatten)]
+    channels: Channels,
+    primaries: Option<[[f64; 2]; 3]>,
+    primaries_name: Option<String>,
+    white: Option<[f64; 2]>,
+    /// Factor from file values to f_r, per channel.
+    scale: Vec<f64>,
+    valid_fraction: f64,
+    negatives: Vec<usize>,
+    bytes: u64,
+    header: Vec<(String, String)>,
+    reciprocal: bool,
+    docs: &'static str,
+}
+
+pub(crate) fn run(context: &Context, args: &Info) -> Result<()> {
+    let loaded = load::measured(context, &args.file, None)?;
+    let report = describe(&loaded)?;
+    context.report(&report, || print(&report))
+}
+
+fn describe(loaded: &LoadedMeasured) -> Result<Report> {
+    let basis = loaded.measured.basis();
+    let space = match basis {
+        Basis::Rgb(space) => Some(space.clone()),
+        _ => None,
+    };
+    let content = content(loaded)?;
+    Ok(Report {
+        file: loaded.path.display().to_string(),
+        format: loaded.format.name,
+        title: loaded.format.title,
+        dims: content.dims,
+        channels: Channels::of(basis),
+        primaries: space.as_ref().map(|s| s.primaries),
+        primaries_name: space.as_ref().map(|s| s.name.clone()),
+        white: space.as_ref().map(|s| s.white),
+        scale: content.scale.unwrap_or_else(|| vec![1.0 / space.as_ref().map_or(1.0, level); basis.len()]),
+        valid_fraction: content.valid_fraction,
+        negatives: content.negatives,
+        bytes: loaded.bytes,
+        header: content.header,
+        reciprocal: loaded.measured.symmetry().reciprocal,
+        docs: loaded.format.docs,
+    })
+}
+
+fn level(space: &RgbSpace) -> f64 {
+    space.white_level
+}
+
+/// What only the file itself can tell.
+struct Content {
+    dims: Vec<usize>,
+    scale: Option<Vec<f64>>,
+    valid_fraction: f64,
+    negatives: Vec<usize>,
+    header: Vec<(String, String)>,
+}
+
+fn content(loaded: &LoadedMeasured) -> Result<Content> {
+    if let Detail::Grid { dims, cells } = &loaded.detail {
+        let negative = cells.all_negative + cells.partly_negative;
+        return Ok(Content {
+            dims: dims.to_vec(),
+            scale: Some(MERL_SCALE.to_vec()),
+            valid_fraction: cells.measured as f64 / cells.cells.max(1) as f64,
+            negatives: vec![negative],
+            header: vec![("not measured".into(), format!("{} cells", cells.cells - cells.measured))],
+        });
+    }
+    let bytes = scene_io::load::bytes(&loaded.path, scene_io::load::MAX_FILE_BYTES)?;
+    let rows = |count: usize, width: usize, values: &mut dyn Iterator<Item = &[f64]>| {
+        let mut negatives = vec![0; width];
+        for row in values {
+            for (n, v) in negatives.iter_mut().zip(row) {
+                *n += usize::from(*v < 0.0);
+            }
+        }
+        (vec![count], negatives)
+    };
+    let (dims, negatives, header) = match brdf_formats::read(bytes)? {
+        File::Astm(f) => {
+            let (dims, negatives) = rows(f.row_count(), f.value_columns().len(), &mut (0..f.row_count()).map(|r| f.values(r)));
+            (dims, negatives, f.fields().collect())
+        }
+        File::PbrtText(f) => {
+            let (dims, negatives) = rows(f.row_count(), f.wavelengths_nm().len(), &mut (0..f.row_count()).map(|r| f.values(r)));
+            (dims, negatives, f.comments().map(|c| ("comment".to_owned(), c)).collect())
+        }
+        File::Rgl(f) => {
+            let view = f.view()?;
+            (view.values.shape.clone(), vec![view.values.data.iter().filter(|v| **v < 0.0).count()], vec![("description".into(), view.description)])
+        }
+        _ => (Vec::new(), Vec::new(), Vec::new()),
+    };
+    Ok(Content { dims, scale: None, valid_fraction: 1.0, negatives, header })
+}
+
+fn print(r: &Report) {
+    println!("{}", r.file);
+    println!("  format     {} ({})", r.title, r.docs);
+    println!("  size       {} bytes, dims {:?}", r.bytes, r.dims);
+    match &r.channels {
+        Channels::Channels(names) => println!("  channels   {}", names.join(", ")),
+        Channels::WavelengthsNm(nm) => {
+            println!("  channels   {} bands, {} to {} nm", nm.len(), nm.first().unwrap_or(&0.0), nm.last().unwrap_or(&0.0));
+        }
+    }
+    if let (Some(name), Some(p), Some(w)) = (&r.primaries_name, &r.primaries, &r.white) {
+        println!("  primaries  {name}: R {:?} G {:?} B {:?}, white {w:?}", p[0], p[1], p[2]);
+    }
+    println!("  scale      {}", r.scale.iter().map(|s| format!("{s:.6}")).collect::<Vec<_>>().join(", "));
+    println!("  valid      {:.2} % of the entries", 100.0 * r.valid_fraction);
+    println!("  negatives  {:?}", r.negatives);
+    println!("  reciprocal {}", if r.reciprocal { "by its layout" } else { "not guaranteed: rendered as measured" });
+    for (key, value) in &r.header {
+        println!("  {key}: {value}");
+    }
+}

@@ -1,0 +1,20 @@
+//! `gonio mix A:0.3 B:0.7 -o C`.
+
+use super::Context;
+use crate::args::Mix;
+use crate::load;
+use anyhow::Result;
+use scene_io::convert::mix_files;
+use scene_io::material::MaterialOptions;
+use std::path::{Path, PathBuf};
+
+pub(crate) fn run(context: &Context, args: &Mix) -> Result<()> {
+    let mut parts: Vec<(PathBuf, f64)> = Vec::new();
+    for part in &args.parts {
+        let (file, weight) = load::weighted(part)?;
+        parts.push((context.places.data.find(file, Path::new(""))?, weight));
+    }
+    let parts: Vec<(&Path, f64)> = parts.iter().map(|(p, w)| (p.as_path(), *w)).collect();
+    let done = mix_files(&parts, &args.output, &MaterialOptions::default())?;
+    super::convert::report(context, &args.output, &done)
+}

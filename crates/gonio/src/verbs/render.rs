@@ -1,0 +1,94 @@
+//! `gonio render [SCENE.ron]`.
+
+mod progress;
+mod report;
+
+use super::Context;
+use crate::args::Render;
+use anyhow::{Context as _, Result};
+use progress::Watch;
+use report::Report;
+use scene_io::image::{Metadata, Picture, write_exr, write_png};
+use scene_io::scene::MaterialSpec;
+use scene_io::{BuiltScene, DEFAULT_SCENE, Overrides, SceneFile, build_scene};
+use std::num::NonZeroUsize;
+use std::path::Path;
+use std::time::Instant;
+use tracer::Film;
+
+/// Independent scrambles of the points, from whose differences the error is estimated.
+const REPLICATES: u32 = 8;
+
+pub(crate) fn run(context: &Context, args: &Render) -> Result<()> {
+    let file = match &args.scene {
+        Some(path) => SceneFile::load(path)?,
+        None => SceneFile::from_text(DEFAULT_SCENE, Path::new("the embedded default scene"), Path::new(""))?,
+    };
+    let start = Instant::now();
+    let mut built = build_scene(file, &overrides(args), &context.places)?;
+    built.settings.threads = args.threads.and_then(|t| NonZeroUsize::new(t.into()));
+    let build_seconds = start.elapsed().as_secs_f64();
+    for note in &built.notes {
+        eprintln!("note: {note}");
+    }
+    if args.explain && !context.json {
+        report::explain(&built, build_seconds);
+    }
+    let film = trace(&built, context)?;
+    let report = write(&built, &film, args, build_seconds)?;
+    context.report(&report, || report.print(args))
+}
+
+fn overrides(args: &Render) -> Overrides {
+    Overrides {
+        material: args.material.as_ref().map(|m| MaterialSpec::from_argument(&m.to_string_lossy())),
+        interpolation: args.interpolation,
+        sampler: args.sampler,
+        spp: args.spp,
+        seed: args.seed,
+        size: args.size,
+        ..Overrides::default()
+    }
+}
+
+/// What a render left behind.
+struct Traced {
+    film: Film<3>,
+    stats: tracer::Stats,
+    seconds: f64,
+    cpu_seconds: f64,
+    interrupted: bool,
+}
+
+fn trace(built: &BuiltScene, context: &Context) -> Result<Traced> {
+    let (width, height) = built.size;
+    let mut film = Film::new(width, height, REPLICATES.min(built.settings.spp.max(1)));
+    let watch = Watch::new(u64::from(width) * u64::from(height) * u64::from(built.settings.spp), context.json)?;
+    let (start, cpu) = (Instant::now(), progress::cpu_seconds());
+    let stats = tracer::render(&built.scene, &built.settings, &mut film, &watch)?;
+    watch.finish();
+    Ok(Traced {
+        film,
+        stats,
+        seconds: start.elapsed().as_secs_f64(),
+        cpu_seconds: progress::cpu_seconds() - cpu,
+        interrupted: watch.interrupted(),
+    })
+}
+
+fn write(built: &BuiltScene, traced: &Traced, args: &Render, build_seconds: f64) -> Result<Report> {
+    let mut picture = Picture::of_film(&traced.film)?;
+    let report = Report::new(built, traced, args, build_seconds);
+    picture.metadata = Metadata {
+        scene: Some(report.scene.clone()),
+        seed: Some(built.settings.seed),
+        spp: Some(report.spp),
+        seconds: Some(traced.seconds),
+        version: Some(env!("CARGO_PKG_VERSION").into()),
+        sampler: Some(report.sampler.clone()),
+    };
+    write_exr(&args.output, &picture)?;
+    let png = args.output.with_extension("png");
+    write_png(&png, &picture, built.tone_map(&picture)).context("the EXR was written")?;
+    Ok(report)
+}

@@ -1,0 +1,98 @@
+//! What a render says of itself.
+
+use super::Traced;
+use crate::args::Render;
+use scene_io::BuiltScene;
+use serde::Serialize;
+use std::path::PathBuf;
+
+/// Confidence of the interval around the error.
+const CONFIDENCE: f64 = 0.95;
+
+#[derive(Serialize)]
+pub(super) struct Report {
+    written: Vec<PathBuf>,
+    pub(super) scene: String,
+    pub(super) sampler: String,
+    spectrum: &'static str,
+    pub(super) spp: u64,
+    seconds: f64,
+    cpu_seconds: f64,
+    build_seconds: f64,
+    paths_per_second: f64,
+    rel_rmse: Option<f64>,
+    rel_rmse_ci: Option<[f64; 2]>,
+    left_out: Vec<String>,
+    interrupted: bool,
+}
+
+impl Report {
+    pub(super) fn new(built: &BuiltScene, traced: &Traced, args: &Render, build_seconds: f64) -> Self {
+        let estimate = traced.film.estimate(CONFIDENCE);
+        let known = estimate.rel_rmse.is_finite();
+        let main = built.materials.first();
+        Self {
+            written: vec![args.output.clone(), args.output.with_extension("png")],
+            scene: built.file.path.display().to_string(),
+            sampler: main.map_or_else(|| "none".into(), |m| m.sampler.name.to_string()),
+            spectrum: "rgb",
+            spp: traced.film.samples() / u64::from(built.size.0 * built.size.1).max(1),
+            seconds: traced.seconds,
+            cpu_seconds: traced.cpu_seconds,
+            build_seconds,
+            paths_per_second: traced.stats.paths as f64 / traced.seconds.max(1e-9),
+            rel_rmse: known.then_some(estimate.rel_rmse),
+            rel_rmse_ci: known.then_some(estimate.rel_rmse_ci),
+            left_out: built.left_out.clone(),
+            interrupted: traced.interrupted,
+        }
+    }
+
+    pub(super) fn print(&self, args: &Render) {
+        if self.interrupted {
+            println!("interrupted: the picture holds what was rendered until then");
+        }
+        println!(
+            "{} samples a pixel in {:.2} s ({:.2} s before that to load and build), {:.2} million paths/s",
+            self.spp,
+            self.seconds,
+            self.build_seconds,
+            self.paths_per_second / 1e6
+        );
+        match (self.rel_rmse, self.rel_rmse_ci) {
+            (Some(error), Some([low, high])) => println!(
+                "relative RMSE {:.3} %, 95 % interval {:.3} to {:.3} %",
+                100.0 * error,
+                100.0 * low,
+                100.0 * high
+            ),
+            _ => println!("relative RMSE unknown: too few samples to estimate it"),
+        }
+        for path in &self.written {
+            println!("wrote {}", path.display());
+        }
+        if args.scene.is_none() && args.material.is_none() {
+            println!(
+                "\nThat was the embedded default: two models, measured on the fly by a virtual gonioreflectometer. Now your own file:\n  \
+                 gonio info FILE\n  gonio plot FILE --theta-i 45 -o lobes.svg\n  gonio render --material FILE -o mine.exr"
+            );
+        }
+    }
+}
+
+/// What was built, and what was not.
+pub(super) fn explain(built: &BuiltScene, build_seconds: f64) {
+    eprintln!("built in {build_seconds:.3} s:");
+    for material in &built.materials {
+        let file = material.file.as_ref().map(|f| format!(" from {}", f.display())).unwrap_or_default();
+        let s = &material.sampler;
+        eprintln!("  material {}{file}: sampler {}, {} bytes, {:.3} s", material.name, s.name, s.bytes, s.build_seconds);
+        for note in &s.notes {
+            eprintln!("    {note}");
+        }
+    }
+    eprintln!("left out:");
+    for line in &built.left_out {
+        eprintln!("  {line}");
+    }
+}

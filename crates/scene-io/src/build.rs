@@ -1,0 +1,148 @@
+//! From a checked scene file to what the tracer renders.
+
+mod lights;
+mod materials;
+mod shapes;
+
+pub use materials::MaterialReport;
+
+use crate::cache::Cache;
+use crate::data_dirs::DataDirs;
+use crate::error::Error;
+use crate::image::{Picture, ToneMap};
+use crate::overrides::Overrides;
+use crate::scene::{ExposureSpec, FilterSpec, MaterialSpec, PointsName, SceneFile};
+use glam::DVec3;
+use tracer::{Camera, Description, PixelFilter, PointSet, Scene, Settings};
+
+/// Where the files of a scene are found and kept.
+#[derive(Clone, Debug, Default)]
+pub struct Places {
+    /// Searched for materials, meshes and images.
+    pub data: DataDirs,
+    /// Where slow results are kept.
+    pub cache: Cache,
+}
+
+/// A scene ready to be rendered.
+#[derive(Debug)]
+pub struct BuiltScene {
+    /// Geometry, materials, lights.
+    pub scene: Scene<3>,
+    /// Samples, depth, seed, points, filter.
+    pub settings: Settings,
+    /// Pixels across and down.
+    pub size: (u32, u32),
+    /// How PNGs are exposed.
+    pub exposure: ExposureSpec,
+    /// The scene with all overrides applied.
+    pub file: SceneFile,
+    /// One entry a material in use, the main material first.
+    pub materials: Vec<MaterialReport>,
+    /// What the scene does not use and therefore cost nothing.
+    pub left_out: Vec<String>,
+    /// What happened on the way and may matter.
+    pub notes: Vec<String>,
+}
+
+impl BuiltScene {
+    /// How `picture` is brought to the screen.
+    #[must_use]
+    pub fn tone_map(&self, picture: &Picture) -> ToneMap {
+        match self.exposure {
+            ExposureSpec::Auto => ToneMap::auto(picture),
+            ExposureSpec::Scale(scale) => ToneMap {
+                scale: scale.0 as f32,
+            },
+        }
+    }
+}
+
+/// Loads everything the scene uses, and nothing else.
+///
+/// # Errors
+/// Missing or broken files, materials that cannot be made, shapes the tracer refuses; each names the scene file
+/// and the field.
+pub fn build_scene(
+    file: SceneFile,
+    overrides: &Overrides,
+    places: &Places,
+) -> Result<BuiltScene, Error> {
+    let path = file.path.clone();
+    let file = overrides.apply(file)?;
+    build(file, places).map_err(|e| {
+        if path.as_os_str().is_empty() {
+            e
+        } else {
+            e.in_file(&path)
+        }
+    })
+}
+
+fn build(file: SceneFile, places: &Places) -> Result<BuiltScene, Error> {
+    let mut notes = Vec::new();
+    let used = materials::load(&file, places)?;
+    let objects = shapes::objects(&file, &used.index, places, &mut notes)?;
+    let (lights, environment) = lights::lights(&file, places)?;
+    let description = Description {
+        camera: Camera {
+            eye: DVec3::from(file.camera.position),
+            target: DVec3::from(file.camera.target),
+            up: DVec3::from(file.camera.up),
+            vertical_fov_deg: file.camera.fov_y_deg,
+        },
+        materials: used.materials,
+        objects,
+        lights,
+        environment,
+    };
+    let scene = Scene::new(description).map_err(|e| Error::invalid(e.to_string()))?;
+    Ok(BuiltScene {
+        settings: settings(&file),
+        size: (file.film.width, file.film.height),
+        exposure: file.film.exposure,
+        left_out: left_out(&file, &used.index),
+        materials: used.reports,
+        scene,
+        file,
+        notes,
+    })
+}
+
+fn settings(file: &SceneFile) -> Settings {
+    Settings {
+        spp: file.render.spp,
+        seed: file.render.seed,
+        max_depth: file.render.depth,
+        points: match file.render.points {
+            PointsName::Sobol => PointSet::Sobol,
+            PointsName::Halton => PointSet::Halton,
+            PointsName::Independent => PointSet::Independent,
+        },
+        filter: match file.film.filter {
+            FilterSpec::Box => PixelFilter::Box,
+            FilterSpec::Gaussian { sigma, radius } => PixelFilter::Gaussian {
+                sigma: sigma.0 as f32,
+                radius: radius.0 as f32,
+            },
+        },
+        ..Settings::default()
+    }
+}
+
+fn left_out(file: &SceneFile, used: &materials::Index) -> Vec<String> {
+    let mut out = Vec::new();
+    for (name, spec) in &file.materials {
+        if !used.contains_key(name) {
+            let what = match spec {
+                MaterialSpec::File(m) => format!("{} was not read", m.path.display()),
+                _ => "was not built".into(),
+            };
+            out.push(format!("material \"{name}\" is on no shape: {what}"));
+        }
+    }
+    if file.lights.is_empty() {
+        out.push("no point, directional or environment light: no code of theirs runs".into());
+    }
+    out
+}

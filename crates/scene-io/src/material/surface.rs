@@ -1,0 +1,268 @@
+//! Any material as linear sRGB reflectance.
+
+use super::loaded::{Form, LoadedMeasured};
+use super::measured_model;
+use super::options::MaterialOptions;
+use super::pair::{self, SamplerReport};
+use crate::cache::{Cache, combine};
+use crate::error::Error;
+use crate::scene::{InterpolationName, SamplerName};
+use crate::sealed::content_hash;
+use brdf::{Brdf, DirectionSampler, Material, Measured, Paired, Projected, Status, Symmetry};
+use brdf_models::{Built, ParsedModel, parse_model};
+use brdf_table::scattered::DEFAULT_DIMS;
+use brdf_table::{GriddedN, HalfDiffTable, Interpolation, PhiDomain, RglN, RglTable};
+use brdf_table::{ThinPlate, resample};
+use spectrum::{Basis, RgbSpace};
+use std::fmt;
+use std::sync::Arc;
+
+/// The grid of MERL files, which models are measured onto.
+const MERL_DIMS: [usize; 3] = [90, 90, 180];
+
+/// Reflectance in linear sRGB, before a sampler is chosen for it.
+pub struct Surface {
+    form: Form3,
+    /// What was found and done, for people.
+    notes: Vec<String>,
+}
+
+enum Form3 {
+    Grid(GriddedN<3>),
+    /// With its full text, which is all its values depend on.
+    Model(Built<3>, String),
+    /// With its own sampling, and what tells it from others.
+    Rgl(Arc<dyn Brdf<3>>, Arc<RglTable>, u64),
+}
+
+impl fmt::Debug for Surface {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Surface")
+            .field("notes", &self.notes)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Surface {
+    /// A measured file. Grids stay as they are; scattered measurements are resampled onto one.
+    ///
+    /// # Errors
+    /// If the channels cannot be converted.
+    pub fn of_file(loaded: &LoadedMeasured, options: &MaterialOptions) -> Result<Self, Error> {
+        let mut notes = Vec::new();
+        let (table, interpolation) = match &loaded.form {
+            Form::Rgl(table, key) => return Self::rgl(table, *key, options.scale),
+            Form::Grid(grid) => (Arc::clone(&grid.table), grid.interpolation),
+            Form::ThinPlate(plate) => (
+                Arc::new(from_plate(plate, &mut notes)?),
+                Interpolation::Linear,
+            ),
+            Form::Opaque => (
+                Arc::new(from_measured(&*loaded.measured)),
+                Interpolation::Linear,
+            ),
+        };
+        let table = scaled(table, options.scale)?;
+        Self::grid(table, interpolation, notes)
+    }
+
+    /// A model evaluated exactly, `ggx:alpha=0.1`.
+    ///
+    /// # Errors
+    /// If the text names no model or a parameter is wrong.
+    pub fn of_model(text: &str, options: &MaterialOptions) -> Result<Self, Error> {
+        let parsed = parse(text)?;
+        if !is_one(options.scale) {
+            // A scaled model is no longer that model: it becomes a table like any measurement.
+            return Self::of_measured_model(text, options);
+        }
+        let text = parsed.to_string();
+        Ok(Self {
+            notes: vec![parsed.to_string()],
+            form: Form3::Model(parsed.built, text),
+        })
+    }
+
+    /// A model measured without noise onto the MERL grid, then treated like a file.
+    ///
+    /// # Errors
+    /// As [`Self::of_model`].
+    pub fn of_measured_model(text: &str, options: &MaterialOptions) -> Result<Self, Error> {
+        let parsed = parse(text)?;
+        let interpolation = match options.interpolation {
+            InterpolationName::Auto | InterpolationName::Linear => Interpolation::Linear,
+            InterpolationName::Nearest => Interpolation::Nearest,
+            other => {
+                let message = format!("expected nearest or linear for a grid, found \"{other}\"");
+                return Err(Error::invalid(message).in_field("interpolation"));
+            }
+        };
+        let table = measured_model::measured(&*parsed.built.brdf)?;
+        let notes = vec![format!("{parsed} on a grid of 90 x 90 x 180 cells")];
+        let table = scaled(Arc::new(table), options.scale)?;
+        Self::grid(table, interpolation, notes)
+    }
+
+    /// A weighted sum, tabulated on the MERL grid.
+    ///
+    /// # Errors
+    /// If the sum has no cells.
+    pub fn mix(parts: &[(Self, f64)]) -> Result<Self, Error> {
+        let reciprocal = parts.iter().all(|(s, _)| s.symmetry().reciprocal);
+        let phi = if reciprocal {
+            PhiDomain::Reciprocal
+        } else {
+            PhiDomain::Full
+        };
+        let table = HalfDiffTable::from_fn(MERL_DIMS, phi, srgb(), |wi, wo, out| {
+            out.fill(0.0);
+            for (part, weight) in parts {
+                let f = part.brdf().eval(wi, wo);
+                out.iter_mut().zip(f).for_each(|(o, v)| *o += weight * v);
+            }
+            Status::Measured
+        });
+        let notes = parts.iter().flat_map(|(s, _)| s.notes.clone()).collect();
+        Self::grid(Arc::new(table), Interpolation::Linear, notes)
+    }
+
+    fn rgl(table: &Arc<RglTable>, key: u64, scale: [f64; 3]) -> Result<Self, Error> {
+        let mut matrix = table.basis().to_linear_srgb();
+        for row in &mut matrix {
+            (0..3).for_each(|c| row[c] *= scale[c]);
+        }
+        let whole = RglN::<3>::new(Arc::clone(table)).filter(|_| is_one(scale));
+        let brdf: Arc<dyn Brdf<3>> = match whole {
+            Some(rgb) => Arc::new(rgb),
+            None => Arc::new(Projected::new(Arc::clone(table), matrix).ok_or_else(|| {
+                Error::invalid("expected as many channels as the basis has, found others")
+            })?),
+        };
+        let bits = scale.map(f64::to_bits);
+        Ok(Self {
+            form: Form3::Rgl(
+                brdf,
+                Arc::clone(table),
+                combine(&[key, bits[0], bits[1], bits[2]]),
+            ),
+            notes: Vec::new(),
+        })
+    }
+
+    fn grid(
+        table: Arc<HalfDiffTable>,
+        interpolation: Interpolation,
+        notes: Vec<String>,
+    ) -> Result<Self, Error> {
+        let grid =
+            GriddedN::new(table, interpolation).map_err(|e| Error::invalid(e.to_string()))?;
+        Ok(Self {
+            form: Form3::Grid(grid),
+            notes,
+        })
+    }
+
+    /// The reflectance.
+    #[must_use]
+    pub fn brdf(&self) -> &dyn Brdf<3> {
+        match &self.form {
+            Form3::Grid(grid) => grid,
+            Form3::Model(model, _) => &*model.brdf,
+            Form3::Rgl(brdf, ..) => brdf,
+        }
+    }
+
+    fn symmetry(&self) -> Symmetry {
+        self.brdf().symmetry()
+    }
+
+    /// The reflectance with the sampler `name` stands for.
+    ///
+    /// # Errors
+    /// If that sampler does not go with this reflectance.
+    pub fn material(
+        self,
+        name: SamplerName,
+        cache: &Cache,
+    ) -> Result<(Box<dyn Material<3>>, SamplerReport), Error> {
+        let (material, mut report) = match (self.form, name) {
+            (Form3::Model(model, _), SamplerName::Auto | SamplerName::Native) => {
+                let report = SamplerReport::new(SamplerName::Native, model.sampler.bytes());
+                (model.material, report)
+            }
+            (Form3::Model(model, text), _) => {
+                let key = |_: &_| content_hash(text.as_bytes());
+                pair::pair(model.brdf, name, (key, cache))?
+            }
+            (Form3::Rgl(brdf, sampler, _), SamplerName::Native) => {
+                let report = SamplerReport::new(SamplerName::Native, sampler.bytes());
+                (
+                    Box::new(Paired { brdf, sampler }) as Box<dyn Material<3>>,
+                    report,
+                )
+            }
+            (Form3::Rgl(brdf, _, key), _) => pair::pair(brdf, name, (|_: &_| key, cache))?,
+            (Form3::Grid(grid), _) => pair::pair(grid, name, (pair::table_key, cache))?,
+        };
+        report.notes.splice(..0, self.notes);
+        Ok((material, report))
+    }
+}
+
+fn parse(text: &str) -> Result<ParsedModel<3>, Error> {
+    parse_model(text).map_err(|e| Error::invalid(e.to_string()).in_field("model"))
+}
+
+fn srgb() -> Basis {
+    Basis::Rgb(RgbSpace::srgb())
+}
+
+fn from_plate(plate: &ThinPlate, notes: &mut Vec<String>) -> Result<HalfDiffTable, Error> {
+    let matrix = plate.basis().to_linear_srgb();
+    let plate = plate
+        .to_basis(srgb(), &matrix)
+        .map_err(|e| Error::invalid(e.to_string()))?;
+    let resampled = resample(&plate, plate.domain(), DEFAULT_DIMS);
+    notes.push(format!(
+        "resampled onto {} x {} x {} cells, RMS error {:.2} % of the mean",
+        DEFAULT_DIMS[0],
+        DEFAULT_DIMS[1],
+        DEFAULT_DIMS[2],
+        100.0 * resampled.relative_error()
+    ));
+    Ok(resampled.table)
+}
+
+/// The older schemes have steps and ghosts of their own: the full MERL resolution keeps them visible.
+fn from_measured(measured: &dyn Measured) -> HalfDiffTable {
+    let matrix = measured.basis().to_linear_srgb();
+    HalfDiffTable::from_fn(MERL_DIMS, PhiDomain::Mirror, srgb(), |wi, wo, out| {
+        let mut native = vec![0.0; matrix.len()];
+        let status = measured.eval_native(wi, wo, &mut native);
+        for (value, row) in native.iter().zip(&matrix) {
+            out.iter_mut().zip(row).for_each(|(o, m)| *o += value * m);
+        }
+        status
+    })
+}
+
+fn scaled(table: Arc<HalfDiffTable>, scale: [f64; 3]) -> Result<Arc<HalfDiffTable>, Error> {
+    if is_one(scale) {
+        return Ok(table);
+    }
+    let matrix: Vec<Vec<f64>> = (0..3)
+        .map(|c| {
+            (0..3)
+                .map(|k| if c == k { scale[c] } else { 0.0 })
+                .collect()
+        })
+        .collect();
+    table
+        .map_channels(&matrix, srgb())
+        .map(Arc::new)
+        .map_err(|e| Error::invalid(e.to_string()).in_field("scale"))
+}
+
+fn is_one(scale: [f64; 3]) -> bool {
+    scale.iter().all(|s| (s - 1.0).abs() == 0.0)
+}

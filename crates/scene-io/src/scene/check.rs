@@ -1,0 +1,209 @@
+//! What no single number shows: names that must exist, lengths that must not vanish, products that must fit.
+
+use super::checked::{Colour, plain};
+use super::resolve::{CameraSpec, SceneFile};
+use super::schema::{FilterSpec, FormSpec, LightSpec, MaterialSpec, ShapeSpec, TransformSpec};
+use crate::error::Error;
+use glam::DVec3;
+use std::collections::BTreeMap;
+
+/// Most pixels of an image: 2^26, 0.8 GB of f32 RGB.
+const MAX_PIXELS: u64 = 1 << 26;
+/// Most shapes of a scene.
+const MAX_SHAPES: usize = 1_000_000;
+/// Most points of a lathe profile.
+const MAX_PROFILE: usize = 1000;
+/// Spectra that are planned; naming one is not a mistake, only too early.
+const PLANNED_SPECTRA: [&str; 4] = ["bins8", "bins16", "bins45", "hero"];
+
+pub(super) fn scene(scene: &SceneFile) -> Result<(), Error> {
+    camera(&scene.camera).map_err(|e| e.in_field("camera"))?;
+    film(scene).map_err(|e| e.in_field("film"))?;
+    spectrum(&scene.render.spectrum).map_err(|e| e.in_field("render.spectrum"))?;
+    if let Some(name) = &scene.main_material {
+        known(name, &scene.materials).map_err(|e| e.in_field("main_material"))?;
+    }
+    for (name, spec) in &scene.materials {
+        material(name, spec, &scene.materials)
+            .map_err(|e| e.in_field(&format!("materials.{name}")))?;
+    }
+    if scene.shapes.len() > MAX_SHAPES {
+        let message = format!(
+            "expected at most {MAX_SHAPES}, found {}",
+            scene.shapes.len()
+        );
+        return Err(Error::invalid(message).in_field("shapes"));
+    }
+    for (k, spec) in scene.shapes.iter().enumerate() {
+        shape(spec, &scene.materials).map_err(|e| e.in_field(&format!("shapes[{k}]")))?;
+    }
+    let mut surrounding = 0;
+    for (k, light) in scene.lights.iter().enumerate() {
+        if let LightSpec::Directional { direction, .. } = light {
+            not_zero(DVec3::from(plain(*direction)))
+                .map_err(|e| e.in_field(&format!("lights[{k}].direction")))?;
+        }
+        let environment = matches!(light, LightSpec::Constant { .. } | LightSpec::Image { .. });
+        surrounding += usize::from(environment);
+    }
+    if surrounding > 1 {
+        let message = format!("expected at most one Constant or Image light, found {surrounding}");
+        return Err(Error::invalid(message).in_field("lights"));
+    }
+    Ok(())
+}
+
+fn camera(camera: &CameraSpec) -> Result<(), Error> {
+    let view = DVec3::from(camera.target) - DVec3::from(camera.position);
+    not_zero(view).map_err(|_| {
+        Error::invalid("expected a point away from `position`, found the same point")
+            .in_field("target")
+    })?;
+    let up = DVec3::from(camera.up);
+    not_zero(up).map_err(|e| e.in_field("up"))?;
+    if view.normalize().cross(up.normalize()).length() < 1e-6 {
+        let message = "expected a direction across the line of sight, found one along it";
+        return Err(Error::invalid(message).in_field("up"));
+    }
+    Ok(())
+}
+
+fn film(scene: &SceneFile) -> Result<(), Error> {
+    let pixels = u64::from(scene.film.width) * u64::from(scene.film.height);
+    if pixels > MAX_PIXELS {
+        return Err(Error::invalid(format!(
+            "expected at most {MAX_PIXELS} pixels, found {} x {}",
+            scene.film.width, scene.film.height
+        )));
+    }
+    if let FilterSpec::Gaussian { sigma, radius } = scene.film.filter
+        && (radius.0 > 8.0 || sigma.0 > 8.0)
+    {
+        let message = "expected sigma and radius of at most 8 pixels";
+        return Err(
+            Error::invalid(format!("{message}, found {} and {}", sigma.0, radius.0))
+                .in_field("filter"),
+        );
+    }
+    Ok(())
+}
+
+fn spectrum(name: &str) -> Result<(), Error> {
+    match name {
+        "rgb" => Ok(()),
+        planned if PLANNED_SPECTRA.contains(&planned) => Err(Error::unsupported(format!(
+            "\"{planned}\" is not supported yet; only \"rgb\" is"
+        ))),
+        other => Err(Error::invalid(format!(
+            "expected \"rgb\", found \"{other}\""
+        ))),
+    }
+}
+
+fn known(name: &str, materials: &BTreeMap<String, MaterialSpec>) -> Result<(), Error> {
+    if materials.contains_key(name) {
+        return Ok(());
+    }
+    let names: Vec<&str> = materials.keys().map(String::as_str).take(20).collect();
+    Err(Error::invalid(format!(
+        "expected the name of a material ({}), found \"{name}\"",
+        names.join(", ")
+    )))
+}
+
+fn material(
+    name: &str,
+    spec: &MaterialSpec,
+    all: &BTreeMap<String, MaterialSpec>,
+) -> Result<(), Error> {
+    match spec {
+        MaterialSpec::File(file) if file.path.as_os_str().is_empty() => {
+            Err(Error::invalid("expected a file name, found \"\"").in_field("path"))
+        }
+        MaterialSpec::Lambert { reflectance } => albedo(*reflectance),
+        MaterialSpec::Mix(mix) => {
+            if mix.parts.is_empty() {
+                return Err(
+                    Error::invalid("expected at least one part, found none").in_field("parts")
+                );
+            }
+            for (part, _) in &mix.parts {
+                known(part, all).map_err(|e| e.in_field("parts"))?;
+                // One level only: every mixture can be written flat, and no circle can arise.
+                if part == name || matches!(all.get(part), Some(MaterialSpec::Mix(_))) {
+                    let message = format!("expected parts that are not mixtures, found \"{part}\"");
+                    return Err(Error::invalid(message).in_field("parts"));
+                }
+            }
+            Ok(())
+        }
+        _ => Ok(()),
+    }
+}
+
+fn albedo(colour: Colour) -> Result<(), Error> {
+    match colour.0.into_iter().find(|&c| c > 1.0) {
+        Some(c) => Err(
+            Error::invalid(format!("expected an albedo from 0 to 1, found {c}"))
+                .in_field("reflectance"),
+        ),
+        None => Ok(()),
+    }
+}
+
+fn shape(spec: &ShapeSpec, materials: &BTreeMap<String, MaterialSpec>) -> Result<(), Error> {
+    known(&spec.material, materials).map_err(|e| e.in_field("material"))?;
+    let analytic = matches!(spec.form, FormSpec::Sphere { .. } | FormSpec::Quad { .. });
+    if spec.emission.is_some() && !analytic {
+        let message = "expected a Sphere or Quad to carry it, found a mesh";
+        return Err(Error::unsupported(message).in_field("emission"));
+    }
+    match &spec.form {
+        FormSpec::Quad { edge_u, edge_v, .. } => {
+            let normal = DVec3::from(plain(*edge_u)).cross(DVec3::from(plain(*edge_v)));
+            if normal.length() < 1e-20 {
+                let message = "expected two edges that span an area, found parallel ones";
+                return Err(Error::invalid(message).in_field("form.edge_v"));
+            }
+        }
+        FormSpec::Lathe { profile, .. } => {
+            let count = profile.len();
+            if !(2..=MAX_PROFILE).contains(&count) {
+                let message = format!("expected 2 to {MAX_PROFILE} points, found {count}");
+                return Err(Error::invalid(message).in_field("form.profile"));
+            }
+            if let Some((r, _)) = profile.iter().find(|(r, _)| r.0 < 0.0) {
+                let message = format!("expected radii of at least 0, found {}", r.0);
+                return Err(Error::invalid(message).in_field("form.profile"));
+            }
+        }
+        _ => {}
+    }
+    for (k, step) in spec.transform.iter().enumerate() {
+        let field = format!("transform[{k}]");
+        match step {
+            TransformSpec::Rotate { axis, .. } => {
+                not_zero(DVec3::from(plain(*axis)))
+                    .map_err(|e| e.in_field("axis").in_field(&field))?;
+            }
+            TransformSpec::Scale([x, y, z])
+                if matches!(spec.form, FormSpec::Sphere { .. }) && !(x == y && y == z) =>
+            {
+                let message = "expected one factor for a Sphere (use UvSphere for an ellipsoid), found several";
+                return Err(Error::unsupported(message).in_field(&field));
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+fn not_zero(v: DVec3) -> Result<(), Error> {
+    if v.length() > 1e-12 {
+        Ok(())
+    } else {
+        Err(Error::invalid(
+            "expected a direction, found the zero vector",
+        ))
+    }
+}

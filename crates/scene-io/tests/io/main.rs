@@ -1,0 +1,11 @@
+//! Files in and out, good and bad.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests may fail like tests")]
+#![expect(clippy::float_cmp, reason = "files keep every bit")]
+
+mod files;
+mod malformed_files;
+mod malformed_scenes;
+mod pictures;
+mod rendered;
+mod scenes;

@@ -1,0 +1,466 @@
+//! The stream: a batch of paths goes through each stage together.
+//!
+//! Per vertex: nearest hits; light met; sorting by material; for each material, blocks of vertices with a point on a
+//! light, one virtual call to evaluate and one to sample; shadow rays; new rays, dense again. Light is collected in
+//! one slot a path and added to the film in the order of the slots, whatever the paths' order became.
+
+use crate::film::Tile;
+use crate::kernel::Kernel;
+use crate::light::LightLanes;
+use crate::math::splat3;
+use crate::path::{HitLanes, NONE, PathState, Paths, Shadows};
+use crate::stats::Stats;
+use crate::vertex::VertexLanes;
+use brdf::{EvalPacket, LANES, SamplePacket};
+use std::time::Instant;
+
+/// Blocks of vertices a material is handed at once: few enough to stay in the first-level cache, enough to make the
+/// virtual call free.
+const BLOCKS: usize = 16;
+
+/// A path this weak ends: its products would be denormal.
+const FAINT: f32 = 1e-30;
+
+/// Shortens shadow rays by a relative hair, so that what touches a light's back does not hide it.
+const NEARLY: f32 = 1.0 - 1.0 / 16_384.0;
+
+/// Which samples a batch takes: of every pixel of a tile, the samples from `first` on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Samples {
+    pub(crate) first: u32,
+    pub(crate) count: u32,
+}
+
+/// A batch to be compiled for each instruction set and run with the widest there is.
+///
+/// Everything down to the materials' virtual calls is inlined into it; results are the same bits, since no step is fused.
+pub(crate) struct Batch<'a, 'k, const N: usize> {
+    pub(crate) workspace: &'a mut Workspace<N>,
+    pub(crate) kernel: &'a Kernel<'k, N>,
+    pub(crate) tile: &'a mut Tile<N>,
+    pub(crate) samples: Samples,
+}
+
+impl<const N: usize> pulp::WithSimd for Batch<'_, '_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        self.workspace.run(self.kernel, self.tile, self.samples);
+    }
+}
+
+/// Buffers of one worker, reused for all its batches.
+#[derive(Debug)]
+pub(crate) struct Workspace<const N: usize> {
+    paths: Paths<N>,
+    next: Paths<N>,
+    hits: Vec<HitLanes>,
+    shadows: Shadows<N>,
+    /// Paths sorted by material, and where each material's part ends.
+    order: Vec<u32>,
+    bucket: Vec<u32>,
+    ends: Vec<usize>,
+    vertices: Vec<VertexLanes<N>>,
+    lights: Vec<LightLanes<N>>,
+    evals: Vec<EvalPacket<N>>,
+    samples: Vec<SamplePacket<N>>,
+    /// Light collected in each slot.
+    slots: Vec<[f32; N]>,
+    /// Points of each slot: stream, and index in the stream.
+    stream: Vec<u32>,
+    index: Vec<u32>,
+    /// Upper left corner of each slot's pixel.
+    corner: [Vec<f32>; 2],
+    pub(crate) stats: Stats,
+}
+
+impl<const N: usize> Workspace<N> {
+    /// Room for `capacity` paths and `materials` materials.
+    pub(crate) fn new(capacity: usize, materials: usize) -> Self {
+        let capacity = capacity.next_multiple_of(LANES);
+        Self {
+            paths: Paths::new(capacity),
+            next: Paths::new(capacity),
+            hits: vec![HitLanes::EMPTY; capacity.div_ceil(LANES)],
+            shadows: Shadows::new(capacity),
+            order: vec![0; capacity],
+            bucket: vec![0; capacity],
+            ends: vec![0; materials + 1],
+            vertices: vec![VertexLanes::EMPTY; BLOCKS],
+            lights: vec![LightLanes::EMPTY; BLOCKS],
+            evals: vec![EvalPacket::ZERO; BLOCKS],
+            samples: vec![SamplePacket::ZERO; BLOCKS],
+            slots: vec![[0.0; N]; capacity],
+            stream: vec![0; capacity],
+            index: vec![0; capacity],
+            corner: [vec![0.0; capacity], vec![0.0; capacity]],
+            stats: Stats::default(),
+        }
+    }
+
+    /// Traces the samples of every pixel of `tile` and adds them to it.
+    #[inline(always)]
+    fn run(&mut self, kernel: &Kernel<'_, N>, tile: &mut Tile<N>, samples: Samples) {
+        let mut clock = Instant::now();
+        let mut lap = || {
+            let now = Instant::now();
+            let passed = now - clock;
+            clock = now;
+            passed
+        };
+        self.start(kernel, tile, samples);
+        self.stats.stages.camera += lap();
+        for depth in 0..=kernel.max_depth {
+            if self.paths.len == 0 {
+                break;
+            }
+            for (rays, hits) in self.paths.rays[..self.paths.blocks()]
+                .iter()
+                .zip(&mut self.hits)
+            {
+                kernel.scene.geometry.closest(rays, hits);
+            }
+            self.stats.closest_rays += self.paths.len as u64;
+            self.stats.stages.closest += lap();
+            self.meet(kernel, depth);
+            self.stats.stages.sort += lap();
+            self.next.len = 0;
+            self.shadows.len = 0;
+            let mut start = 0;
+            for material in 0..kernel.scene.materials.len() {
+                let end = self.ends[material];
+                while start < end {
+                    let stop = end.min(start + BLOCKS * LANES);
+                    let blocks = self.prepare(kernel, depth, start..stop);
+                    self.stats.stages.prepare += lap();
+                    self.ask(kernel, material, blocks);
+                    self.stats.stages.material += lap();
+                    self.advance(kernel, depth, blocks);
+                    self.stats.stages.advance += lap();
+                    start = stop;
+                }
+            }
+            self.stats.vertices += start as u64;
+            self.next.seal();
+            std::mem::swap(&mut self.paths, &mut self.next);
+            self.trace_shadows(kernel);
+            self.stats.stages.shadow += lap();
+        }
+        self.finish(tile, samples);
+        self.stats.stages.film += lap();
+    }
+
+    /// Camera rays, slot by slot: all pixels of the first sample, then of the next.
+    #[inline(always)]
+    fn start(&mut self, kernel: &Kernel<'_, N>, tile: &Tile<N>, samples: Samples) {
+        let replicates = kernel.replicates;
+        let mut slot = 0;
+        for sample in samples.first..samples.first + samples.count {
+            for (x, y) in tile.pixels() {
+                (self.corner[0][slot], self.corner[1][slot]) = (x as f32, y as f32);
+                // wraps for pictures of 2^32 / replicates pixels and more, whose ends then share scrambles
+                self.stream[slot] = (y.wrapping_mul(kernel.width).wrapping_add(x))
+                    .wrapping_mul(replicates)
+                    .wrapping_add(sample % replicates);
+                self.index[slot] = sample / replicates;
+                slot += 1;
+            }
+        }
+        self.slots[..slot].fill([0.0; N]);
+        self.paths.len = slot;
+        for block in 0..self.paths.blocks() {
+            let lanes = block * LANES..(block + 1) * LANES;
+            let stream = lanes_of(&self.stream[lanes.clone()]);
+            let index = lanes_of(&self.index[lanes.clone()]);
+            let x = lanes_of(&self.corner[0][lanes.clone()]);
+            let y = lanes_of(&self.corner[1][lanes.clone()]);
+            let u = kernel.points.get2_lanes(stream, index, 0);
+            let (x, y) = kernel.filter.place(&x, &y, &u);
+            let rays = &mut self.paths.rays[block];
+            for k in 0..LANES {
+                rays.d.set(k, kernel.camera.direction(x[k], y[k]));
+            }
+            rays.o = splat3(kernel.camera.eye);
+            rays.t_max = [f32::INFINITY; LANES];
+            rays.from = [NONE; LANES];
+            self.paths.throughput[lanes.clone()].fill([1.0; N]);
+            for (slot, i) in self.paths.slot[lanes.clone()].iter_mut().zip(lanes) {
+                *slot = i as u32;
+            }
+        }
+        self.paths.seal();
+        self.stats.paths += self.paths.len as u64;
+    }
+
+    /// Adds the light that rays met, and sorts the paths that go on by material (counting sort).
+    #[inline(always)]
+    fn meet(&mut self, kernel: &Kernel<'_, N>, depth: u32) {
+        let scene = kernel.scene;
+        let materials = scene.materials.len() as u32;
+        let count = depth == 0 || kernel.count_met;
+        let go_on = depth < kernel.max_depth;
+        self.ends.fill(0);
+        for i in 0..self.paths.len {
+            let prim = self.hits[i / LANES].prim[i % LANES];
+            let mut bucket = materials;
+            if prim == NONE {
+                if let (Some(light), true) = (scene.environment, count) {
+                    self.meet_light(kernel, depth, i, light);
+                }
+            } else {
+                let surface = scene.surfaces[scene.geometry.object(prim) as usize];
+                if go_on {
+                    bucket = surface.material;
+                }
+                if surface.one_sided && self.behind(kernel, i) {
+                    bucket = materials;
+                }
+                if surface.light != NONE && count && !self.behind(kernel, i) {
+                    self.meet_light(kernel, depth, i, surface.light);
+                }
+            }
+            self.bucket[i] = bucket;
+            self.ends[bucket as usize] += 1;
+        }
+        let mut sum = 0;
+        for end in &mut self.ends {
+            let count = *end;
+            *end = sum;
+            sum += count;
+        }
+        for (i, &bucket) in self.bucket[..self.paths.len].iter().enumerate() {
+            let at = &mut self.ends[bucket as usize];
+            self.order[*at] = i as u32;
+            *at += 1;
+        }
+    }
+
+    /// Whether path `i` met the back of its primitive.
+    fn behind(&self, kernel: &Kernel<'_, N>, i: usize) -> bool {
+        let (rays, hits, k) = (
+            &self.paths.rays[i / LANES],
+            &self.hits[i / LANES],
+            i % LANES,
+        );
+        let (o, d) = (rays.o.get(k), rays.d.get(k));
+        let at = kernel.scene.geometry.point(hits.prim[k], o, d, hits.t[k]);
+        at.normal.dot(d) > 0.0
+    }
+
+    /// Adds light number `light`, which path `i` met.
+    #[inline(always)]
+    fn meet_light(&mut self, kernel: &Kernel<'_, N>, depth: u32, i: usize, light: u32) {
+        let (rays, hits, k) = (
+            &self.paths.rays[i / LANES],
+            &self.hits[i / LANES],
+            i % LANES,
+        );
+        let (o, d) = (rays.o.get(k), rays.d.get(k));
+        let light = &kernel.lights.lights[light as usize];
+        let weight = if depth > 0 && kernel.weigh {
+            let normal = if hits.prim[k] == NONE {
+                d
+            } else {
+                kernel
+                    .scene
+                    .geometry
+                    .point(hits.prim[k], o, d, hits.t[k])
+                    .normal
+            };
+            let pdf = self.paths.pdf[i];
+            let other = light.pdf(o, d, hits.t[k], normal);
+            // written so that an infinite density of the material gives one
+            1.0 / (1.0 + other / pdf)
+        } else {
+            1.0
+        };
+        let radiance = light.radiance(d);
+        let slot = &mut self.slots[self.paths.slot[i] as usize];
+        for c in 0..N {
+            slot[c] += self.paths.throughput[i][c] * radiance[c] * weight;
+        }
+    }
+
+    /// Gathers the vertices `order[range]` into blocks with random numbers and points on lights; how many blocks.
+    #[inline(always)]
+    fn prepare(
+        &mut self,
+        kernel: &Kernel<'_, N>,
+        depth: u32,
+        range: std::ops::Range<usize>,
+    ) -> usize {
+        let dimension = Kernel::<N>::dimension;
+        let mut blocks = 0;
+        for which in self.order[range].chunks(LANES) {
+            let vertex = &mut self.vertices[blocks];
+            vertex.gather(&kernel.scene.geometry, &self.paths, &self.hits, which);
+            let stream = vertex.slot.map(|s| self.stream[s as usize]);
+            let index = vertex.slot.map(|s| self.index[s as usize]);
+            let sampling = &mut self.samples[blocks];
+            sampling.wo = vertex.wo;
+            sampling.u = kernel.points.get2_lanes(stream, index, dimension(depth, 0));
+            if kernel.ask_lights {
+                let on_light = kernel.points.get2_lanes(stream, index, dimension(depth, 1));
+                let choice = if kernel.lights.several() {
+                    let at = dimension(depth, 2);
+                    std::array::from_fn(|k| kernel.points.get1(stream[k], index[k], at))
+                } else {
+                    [0.0; LANES]
+                };
+                let light = &mut self.lights[blocks];
+                kernel.lights.sample(&vertex.o, &choice, &on_light, light);
+                let eval = &mut self.evals[blocks];
+                eval.wo = vertex.wo;
+                for k in 0..LANES {
+                    eval.wi.set(k, vertex.local(k, light.wi.get(k)));
+                }
+            }
+            blocks += 1;
+        }
+        blocks
+    }
+
+    /// The two virtual calls.
+    fn ask(&mut self, kernel: &Kernel<'_, N>, material: usize, blocks: usize) {
+        let material = &kernel.scene.materials[material];
+        if kernel.ask_lights {
+            material.eval(&mut self.evals[..blocks]);
+        }
+        material.sample(&mut self.samples[..blocks]);
+    }
+
+    /// Makes shadow rays and new rays of what the material said.
+    #[inline(always)]
+    fn advance(&mut self, kernel: &Kernel<'_, N>, depth: u32, blocks: usize) {
+        for block in 0..blocks {
+            if kernel.ask_lights {
+                self.advance_shadows(kernel, block);
+            }
+            let (vertex, s) = (&self.vertices[block], &self.samples[block]);
+            for k in 0..vertex.count {
+                let mut throughput = [0.0; N];
+                for c in 0..N {
+                    throughput[c] = vertex.throughput[c][k] * s.weight[c][k];
+                }
+                let d = vertex.world(k, s.wi.get(k));
+                let above = !kernel.scene.smooth || d.dot(vertex.g.get(k)) > 0.0;
+                let slot = vertex.slot[k];
+                if !(s.pdf[k] > 0.0 && above && lasts(&throughput)) {
+                    continue;
+                }
+                if depth + 1 >= kernel.roulette {
+                    let (stream, index) = (self.stream[slot as usize], self.index[slot as usize]);
+                    let survive = strength(&throughput).min(1.0);
+                    if kernel.chance(stream, index, depth) >= survive {
+                        continue;
+                    }
+                    throughput = throughput.map(|x| x / survive);
+                }
+                self.next.push(&PathState {
+                    o: vertex.o.get(k),
+                    d,
+                    from: vertex.from[k],
+                    slot,
+                    pdf: s.pdf[k],
+                    throughput,
+                });
+            }
+        }
+    }
+
+    /// Shadow rays of one block, weighed by the balance heuristic.
+    #[inline(always)]
+    fn advance_shadows(&mut self, kernel: &Kernel<'_, N>, block: usize) {
+        let (vertex, eval, light) = (
+            &self.vertices[block],
+            &self.evals[block],
+            &self.lights[block],
+        );
+        for k in 0..vertex.count {
+            let found_by_material = if kernel.weigh {
+                light.shared[k] * eval.pdf[k]
+            } else {
+                0.0
+            };
+            let weight = 1.0 / (light.pdf[k] + found_by_material);
+            let mut carried = [0.0; N];
+            for c in 0..N {
+                carried[c] =
+                    vertex.throughput[c][k] * eval.f_cos[c][k] * light.radiance[c][k] * weight;
+            }
+            let d = light.wi.get(k);
+            let above = !kernel.scene.smooth || d.dot(vertex.g.get(k)) > 0.0;
+            if light.pdf[k] > 0.0 && eval.wi.z[k] > 0.0 && above && lasts(&carried) {
+                let path = PathState {
+                    o: vertex.o.get(k),
+                    d,
+                    from: vertex.from[k],
+                    slot: vertex.slot[k],
+                    pdf: 0.0,
+                    throughput: carried,
+                };
+                self.shadows
+                    .push(&path, light.distance[k] * NEARLY, light.prim[k]);
+            }
+        }
+    }
+
+    /// Adds what shadow rays carry where the way is free.
+    #[inline(always)]
+    fn trace_shadows(&mut self, kernel: &Kernel<'_, N>) {
+        self.shadows.seal();
+        let shadows = &self.shadows;
+        for block in 0..shadows.len.div_ceil(LANES) {
+            let blocked = kernel
+                .scene
+                .geometry
+                .blocked(&shadows.rays[block], &shadows.target[block]);
+            let first = block * LANES;
+            for k in 0..LANES.min(shadows.len - first) {
+                let slot = &mut self.slots[shadows.slot[first + k] as usize];
+                let free = if blocked[k] == 0 { 1.0 } else { 0.0 };
+                for c in 0..N {
+                    slot[c] += shadows.light[first + k][c] * free;
+                }
+            }
+        }
+        self.stats.shadow_rays += shadows.len as u64;
+    }
+
+    /// Adds the slots to the tile, in their order.
+    #[inline(always)]
+    fn finish(&self, tile: &mut Tile<N>, samples: Samples) {
+        let pixels = tile.pixels().len();
+        for (i, sample) in (samples.first..samples.first + samples.count).enumerate() {
+            tile.add(sample, &self.slots[i * pixels..(i + 1) * pixels]);
+        }
+        tile.done = samples.first + samples.count;
+    }
+}
+
+/// The largest magnitude.
+#[inline(always)]
+fn strength<const N: usize>(values: &[f32; N]) -> f32 {
+    let mut most = 0.0_f32;
+    for v in values {
+        most = most.max(v.abs());
+    }
+    most
+}
+
+/// Whether anything is left to carry: not zero, not infinite, not NaN.
+#[inline(always)]
+fn lasts<const N: usize>(values: &[f32; N]) -> bool {
+    let mut sum = 0.0;
+    for v in values {
+        sum += v.abs();
+    }
+    sum > FAINT && sum < f32::INFINITY
+}
+
+/// A slice of [`LANES`] values as an array.
+#[inline(always)]
+fn lanes_of<T: Copy>(values: &[T]) -> [T; LANES] {
+    std::array::from_fn(|k| values[k])
+}

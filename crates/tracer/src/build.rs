@@ -1,0 +1,470 @@
+//! From a description to a scene: shapes into world space, lights and their powers, the BVH.
+
+use crate::bvh::Bvh;
+use crate::geometry::{Geometry, TriangleInfo};
+use crate::light::{
+    Emitter, Environment, ImageLight, Light, Lights, PointLight, RectLight, SphereLight,
+    TriangleLight,
+};
+use crate::path::NONE;
+use crate::scene::{Description, Object, Scene, SceneError, Surface};
+use crate::shape::{Mesh, Quad, Shape, Sphere, Triangle};
+use glam::{DVec3, Vec3};
+use std::f64::consts::PI;
+
+/// A triangle on its way into the tree.
+#[derive(Clone, Copy)]
+struct Loose {
+    triangle: Triangle,
+    info: TriangleInfo,
+}
+
+/// A mesh object that shines: lights need the primitives' final order.
+struct Shining {
+    object: usize,
+    light: usize,
+}
+
+pub(crate) struct Builder<const N: usize> {
+    description: Description<N>,
+    geometry: Geometry,
+    quad_corners: Vec<[Vec3; 4]>,
+    sphere_objects: Vec<u32>,
+    quad_objects: Vec<u32>,
+    surfaces: Vec<Surface>,
+    loose: Vec<Loose>,
+    shining: Vec<Shining>,
+    lights: Vec<Light<N>>,
+    powers: Vec<Option<f64>>,
+    left_out: usize,
+}
+
+impl<const N: usize> Builder<N> {
+    pub(crate) fn new(description: Description<N>) -> Result<Self, SceneError> {
+        description.camera.check().map_err(SceneError::Camera)?;
+        Ok(Self {
+            description,
+            geometry: Geometry::default(),
+            quad_corners: Vec::new(),
+            sphere_objects: Vec::new(),
+            quad_objects: Vec::new(),
+            surfaces: Vec::new(),
+            loose: Vec::new(),
+            shining: Vec::new(),
+            lights: Vec::new(),
+            powers: Vec::new(),
+            left_out: 0,
+        })
+    }
+
+    pub(crate) fn finish(mut self) -> Result<Scene<N>, SceneError> {
+        let objects = std::mem::take(&mut self.description.objects);
+        for (index, object) in objects.iter().enumerate() {
+            self.object(index, object)
+                .map_err(|reason| SceneError::Object {
+                    object: index,
+                    reason,
+                })?;
+        }
+        let primitives = self.sphere_objects.len() + self.quad_objects.len() + self.loose.len();
+        if primitives > (u32::MAX >> 2) as usize {
+            return Err(SceneError::TooMany);
+        }
+        self.close_geometry(&objects);
+        self.point_lights()?;
+        let environment = self.environment()?;
+        let lights = Lights::new(self.lights.clone(), &self.powers);
+        let with_constant: Vec<_> = (self.powers.iter())
+            .zip(&self.lights)
+            .map(|(power, light)| match light.emitter {
+                Emitter::Constant => Some(self.environment_power(mean(&light.strength))),
+                _ => *power,
+            })
+            .collect();
+        let all_lights = Lights::new(std::mem::take(&mut self.lights), &with_constant);
+        Ok(Scene {
+            camera: self.description.camera,
+            materials: self.description.materials,
+            smooth: !self.geometry.normals.is_empty(),
+            geometry: self.geometry,
+            surfaces: self.surfaces,
+            lights,
+            all_lights,
+            environment,
+            left_out: self.left_out,
+        })
+    }
+
+    fn object(&mut self, index: usize, object: &Object<N>) -> Result<(), String> {
+        let materials = self.description.materials.len();
+        if object.material >= materials {
+            return Err(format!("material {} of {materials}", object.material));
+        }
+        if !object.transform.is_finite() {
+            return Err("transform must be finite".into());
+        }
+        let emission = object.emission.filter(|e| !e.is_zero());
+        if emission.is_some_and(|e| !e.0.iter().all(|x| x.is_finite())) {
+            return Err("emission must be finite".into());
+        }
+        self.surfaces.push(Surface {
+            material: object.material as u32,
+            light: NONE,
+            one_sided: object.one_sided,
+        });
+        match &object.shape {
+            Shape::Sphere { center, radius } => self.sphere(index, object, *center, *radius),
+            Shape::Quad {
+                corner,
+                edge_u,
+                edge_v,
+            } => self.quad(index, object, [*corner, *edge_u, *edge_v]),
+            Shape::Mesh(mesh) => self.mesh(index, object, mesh),
+        }
+    }
+
+    fn sphere(
+        &mut self,
+        index: usize,
+        object: &Object<N>,
+        center: DVec3,
+        radius: f64,
+    ) -> Result<(), String> {
+        let m = object.transform.matrix3;
+        let scales = [m.x_axis.length(), m.y_axis.length(), m.z_axis.length()];
+        let scale = scales[0];
+        let skew = [
+            m.x_axis.dot(m.y_axis),
+            m.x_axis.dot(m.z_axis),
+            m.y_axis.dot(m.z_axis),
+        ];
+        // rotations given with seven digits still count as such
+        let uniform = scales.iter().all(|s| (s - scale).abs() <= 1e-5 * scale)
+            && skew.iter().all(|s| s.abs() <= 1e-5 * scale * scale);
+        if !uniform {
+            return Err("a sphere takes rotation, translation and uniform scale only".into());
+        }
+        let center = object.transform.transform_point3(center).as_vec3();
+        let radius = (radius * scale) as f32;
+        if !(radius > 0.0 && radius.is_finite() && center.is_finite()) {
+            return Err(
+                "radius must be positive, radius and centre finite in single precision".into(),
+            );
+        }
+        self.geometry.spheres.push(Sphere { center, radius });
+        self.sphere_objects.push(index as u32);
+        let r = f64::from(radius);
+        self.shine(
+            index,
+            object,
+            4.0 * PI * r * r,
+            Emitter::Sphere(SphereLight { center, radius }),
+        );
+        Ok(())
+    }
+
+    fn quad(
+        &mut self,
+        index: usize,
+        object: &Object<N>,
+        [corner, u, v]: [DVec3; 3],
+    ) -> Result<(), String> {
+        let corner = object.transform.transform_point3(corner);
+        let u = object.transform.transform_vector3(u);
+        let v = object.transform.transform_vector3(v);
+        let cross = u.cross(v);
+        let area = cross.length();
+        let (dual_u, dual_v) = (
+            v.cross(cross) / (area * area),
+            cross.cross(u) / (area * area),
+        );
+        let finite = corner.as_vec3().is_finite()
+            && dual_u.as_vec3().is_finite()
+            && dual_v.as_vec3().is_finite();
+        if !(area > 0.0 && finite) {
+            return Err("the edges must span an area, finite in single precision".into());
+        }
+        let normal = cross / area;
+        self.geometry.quads.push(Quad {
+            corner: corner.as_vec3(),
+            normal: normal.as_vec3(),
+            dual_u: dual_u.as_vec3(),
+            dual_v: dual_v.as_vec3(),
+        });
+        let corners = [corner, corner + u, corner + u + v, corner + v].map(|c| c.as_vec3());
+        self.quad_corners.push(corners);
+        self.quad_objects.push(index as u32);
+        let rectangle = u.dot(v).abs() <= 1e-6 * u.length() * v.length();
+        let emitter = if rectangle {
+            let x = u.normalize();
+            Emitter::Rect(RectLight {
+                corner: corner.as_vec3(),
+                x: x.as_vec3(),
+                y: normal.cross(x).as_vec3(),
+                z: normal.as_vec3(),
+                extent: [u.length() as f32, v.length() as f32],
+            })
+        } else {
+            let [a, b, c, d] = corners;
+            let halves = [[a, b, c], [a, c, d]].map(|corners| Triangle { corners });
+            // both halves are the one primitive; its number is known once all are counted
+            match TriangleLight::new(halves.to_vec(), vec![NONE; 2]) {
+                Some(light) => Emitter::Triangles(light),
+                None => return Err("the edges must span an area".into()),
+            }
+        };
+        self.shine(index, object, area, emitter);
+        Ok(())
+    }
+
+    fn mesh(&mut self, index: usize, object: &Object<N>, mesh: &Mesh) -> Result<(), String> {
+        check_mesh(mesh)?;
+        let positions: Vec<Vec3> = mesh
+            .positions
+            .iter()
+            .map(|p| object.transform.transform_point3(p.as_dvec3()).as_vec3())
+            .collect();
+        if !positions.iter().all(|p| p.is_finite()) {
+            return Err("positions must be finite in single precision".into());
+        }
+        // normals turn with the inverse transpose; det > 0 keeps the front in front
+        let m = object.transform.matrix3;
+        let flip = m.determinant() < 0.0;
+        let cofactors = m.determinant() * m.inverse().transpose();
+        let first = self.loose.len();
+        for corners in &mesh.triangles {
+            let mut order = corners.map(|i| i as usize);
+            if flip {
+                order.swap(1, 2);
+            }
+            let triangle = Triangle {
+                corners: order.map(|i| positions[i]),
+            };
+            if triangle.area() <= 0.0 {
+                self.left_out += 1;
+                continue;
+            }
+            let mut info = TriangleInfo {
+                object: index as u32,
+                normals: NONE,
+            };
+            if let Some(normals) = &mesh.normals {
+                info.normals = self.geometry.normals.len() as u32;
+                let sign = if flip { -1.0 } else { 1.0 };
+                let turned = order.map(|i| (cofactors * normals[i].as_dvec3() * sign).as_vec3());
+                self.geometry
+                    .normals
+                    .extend(turned.map(|n| n.normalize_or(triangle.normal())));
+            }
+            self.loose.push(Loose { triangle, info });
+        }
+        if object.emission.is_some_and(|e| !e.is_zero()) && self.loose.len() > first {
+            self.shining.push(Shining {
+                object: index,
+                light: self.lights.len(),
+            });
+            self.surfaces[index].light = self.lights.len() as u32;
+            // filled in close_geometry, which knows the order of the leaves
+            self.lights.push(Light {
+                emitter: Emitter::Constant,
+                strength: object.emission.map_or([0.0; N], |e| e.0),
+                prim: NONE,
+                probability: 0.0,
+            });
+            self.powers.push(None);
+        }
+        Ok(())
+    }
+
+    /// Registers the emission of an analytic shape, if it has any.
+    fn shine(&mut self, index: usize, object: &Object<N>, area: f64, emitter: Emitter<N>) {
+        let Some(emission) = object.emission.filter(|e| !e.is_zero()) else {
+            return;
+        };
+        self.surfaces[index].light = self.lights.len() as u32;
+        self.powers.push(Some(area * PI * mean(&emission.0)));
+        self.lights.push(Light {
+            emitter,
+            strength: emission.0,
+            prim: NONE,
+            probability: 0.0,
+        });
+    }
+
+    /// Orders the primitives, builds the tree, tells lights which primitives they are.
+    fn close_geometry(&mut self, objects: &[Object<N>]) {
+        self.geometry.objects = [&self.sphere_objects[..], &self.quad_objects[..]].concat();
+        for (prim, &object) in self.geometry.objects.iter().enumerate() {
+            let light = self.surfaces[object as usize].light;
+            if let Some(light) = self.lights.get_mut(light as usize) {
+                light.prim = prim as u32;
+                if let Emitter::Triangles(halves) = &mut light.emitter {
+                    halves.belong_to(prim as u32);
+                }
+            }
+        }
+        let loose = std::mem::take(&mut self.loose);
+        if loose.is_empty() {
+            return;
+        }
+        let triangles: Vec<_> = loose.iter().map(|l| l.triangle).collect();
+        let (bvh, order) = Bvh::new(&triangles);
+        self.geometry.bvh = Some(bvh);
+        self.geometry.triangles = order.iter().map(|&i| loose[i as usize].info).collect();
+        let base = self.geometry.first_triangle();
+        for shining in std::mem::take(&mut self.shining) {
+            let (members, prims): (Vec<_>, Vec<_>) = (order.iter().zip(base..))
+                .filter(|(i, _)| loose[**i as usize].info.object as usize == shining.object)
+                .map(|(&i, prim)| (loose[i as usize].triangle, prim))
+                .unzip();
+            if let Some(light) = TriangleLight::new(members, prims) {
+                let emission = objects[shining.object].emission.map_or(0.0, |e| mean(&e.0));
+                self.powers[shining.light] = Some(f64::from(light.area()) * PI * emission);
+                self.lights[shining.light].emitter = Emitter::Triangles(light);
+            }
+        }
+    }
+
+    fn point_lights(&mut self) -> Result<(), SceneError> {
+        for (index, light) in self.description.lights.iter().enumerate() {
+            let wrong = |reason| SceneError::Light {
+                light: index,
+                reason,
+            };
+            let (emitter, strength, power) = match *light {
+                PointLight::Point {
+                    position,
+                    intensity,
+                } => {
+                    let position = position.as_vec3();
+                    if !position.is_finite() {
+                        return Err(wrong("position must be finite"));
+                    }
+                    let power = 4.0 * PI * mean(&intensity.0);
+                    (Emitter::Point(position), intensity, power)
+                }
+                PointLight::Directional {
+                    direction,
+                    irradiance,
+                } => {
+                    let toward = -direction.normalize_or_zero();
+                    if toward == DVec3::ZERO {
+                        return Err(wrong("direction must be finite and not zero"));
+                    }
+                    let radius = self.radius();
+                    let power = PI * radius * radius * mean(&irradiance.0);
+                    (Emitter::Directional(toward.as_vec3()), irradiance, power)
+                }
+            };
+            if !strength.0.iter().all(|x| x.is_finite()) {
+                return Err(wrong("strength must be finite"));
+            }
+            self.powers.push(Some(power));
+            self.lights.push(Light {
+                emitter,
+                strength: strength.0,
+                prim: NONE,
+                probability: 0.0,
+            });
+        }
+        Ok(())
+    }
+
+    /// Adds the environment as the last light; its index.
+    fn environment(&mut self) -> Result<Option<u32>, SceneError> {
+        let (emitter, strength, power) = match &self.description.environment {
+            None => return Ok(None),
+            Some(Environment::Constant(radiance)) => {
+                if !radiance.0.iter().all(|x| x.is_finite()) {
+                    return Err(SceneError::Environment("radiance must be finite"));
+                }
+                (Emitter::Constant, radiance.0, None)
+            }
+            Some(Environment::Image(image)) => {
+                let count = image.width as usize * image.height as usize;
+                if count == 0 || count != image.pixels.len() {
+                    return Err(SceneError::Environment(
+                        "pixels must be width x height, not none",
+                    ));
+                }
+                if !image
+                    .pixels
+                    .iter()
+                    .all(|p| p.0.iter().all(|x| x.is_finite()))
+                {
+                    return Err(SceneError::Environment("radiance must be finite"));
+                }
+                let total: f64 = image.pixels.iter().map(|p| mean(&p.0)).sum();
+                match ImageLight::new(image) {
+                    None => return Ok(None),
+                    Some(light) => {
+                        let power = self.environment_power(total / count as f64);
+                        (Emitter::Image(light), [0.0; N], Some(power))
+                    }
+                }
+            }
+        };
+        let index = self.lights.len() as u32;
+        self.powers.push(power);
+        self.lights.push(Light {
+            emitter,
+            strength,
+            prim: NONE,
+            probability: 0.0,
+        });
+        Ok(Some(index))
+    }
+
+    /// What reaches the scene's bounding sphere.
+    fn environment_power(&self, radiance: f64) -> f64 {
+        let radius = self.radius();
+        4.0 * PI * PI * radius * radius * radiance
+    }
+
+    /// Half the diagonal of the analytic shapes' and triangles' bounding box.
+    fn radius(&self) -> f64 {
+        let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        let mut grow = |p: Vec3| {
+            low = low.min(p);
+            high = high.max(p);
+        };
+        for s in &self.geometry.spheres {
+            grow(s.center - s.radius);
+            grow(s.center + s.radius);
+        }
+        self.quad_corners.iter().flatten().for_each(|&p| grow(p));
+        if let Some(bvh) = &self.geometry.bvh {
+            bvh.corners().for_each(grow);
+        }
+        let diagonal = f64::from((high - low).length());
+        if diagonal.is_finite() {
+            0.5 * diagonal
+        } else {
+            0.0
+        }
+    }
+}
+
+fn check_mesh(mesh: &Mesh) -> Result<(), String> {
+    let count = mesh.positions.len();
+    if let Some(bad) = mesh
+        .triangles
+        .iter()
+        .flatten()
+        .find(|&&i| i as usize >= count)
+    {
+        return Err(format!("index {bad} of {count} positions"));
+    }
+    match &mesh.normals {
+        Some(normals) if normals.len() != count => {
+            Err(format!("{} normals for {count} positions", normals.len()))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Mean over the channels, not below zero: the brightness that choices go by.
+fn mean<const N: usize>(values: &[f32; N]) -> f64 {
+    let sum: f64 = values.iter().map(|&x| f64::from(x)).sum();
+    (sum / N.max(1) as f64).max(0.0)
+}

@@ -1,0 +1,81 @@
+//! What stays the same for all batches of a render.
+
+use crate::camera::Rays;
+use crate::filter::Sampler;
+use crate::light::Lights;
+use crate::math::mix;
+use crate::scene::Scene;
+use crate::settings::{Settings, Strategy};
+use sampling::Points;
+
+/// Dimension pairs a vertex uses: material, point on the light, choice of the light.
+const PER_VERTEX: u32 = 3;
+/// The pair that places the sample in its pixel comes first.
+const FIRST_VERTEX: u32 = 1;
+
+/// The scene with everything that is chosen once per render.
+pub(crate) struct Kernel<'a, const N: usize> {
+    pub(crate) scene: &'a Scene<N>,
+    pub(crate) lights: &'a Lights<N>,
+    pub(crate) camera: Rays,
+    pub(crate) width: u32,
+    /// Asked with a stream number, not a pixel: each replicate of a pixel is a stream, scrambled for itself.
+    pub(crate) points: Points,
+    pub(crate) replicates: u32,
+    pub(crate) filter: Sampler,
+    pub(crate) max_depth: u32,
+    pub(crate) roulette: u32,
+    seed: u64,
+    /// The instruction set of this machine.
+    pub(crate) arch: pulp::Arch,
+    /// Whether vertices ask lights.
+    pub(crate) ask_lights: bool,
+    /// Whether light that a path meets after its first vertex counts.
+    pub(crate) count_met: bool,
+    /// Whether both are weighed against each other.
+    pub(crate) weigh: bool,
+}
+
+impl<'a, const N: usize> Kernel<'a, N> {
+    pub(crate) fn new(
+        scene: &'a Scene<N>,
+        settings: &Settings,
+        size: [u32; 2],
+        replicates: u32,
+    ) -> Self {
+        let lights = match settings.strategy {
+            Strategy::LightOnly => &scene.all_lights,
+            Strategy::Mis | Strategy::BsdfOnly => &scene.lights,
+        };
+        Self {
+            scene,
+            lights,
+            camera: scene.camera.rays(size[0], size[1]),
+            width: size[0],
+            points: Points::new(settings.points, settings.seed),
+            replicates,
+            filter: settings.filter.sampler(),
+            max_depth: settings.max_depth,
+            roulette: settings.roulette.unwrap_or(u32::MAX),
+            seed: mix(settings.seed),
+            arch: pulp::Arch::new(),
+            ask_lights: settings.strategy != Strategy::BsdfOnly && lights.any(),
+            count_met: settings.strategy != Strategy::LightOnly,
+            weigh: settings.strategy == Strategy::Mis,
+        }
+    }
+
+    /// Dimension pair of use `part` at the vertex number `depth`.
+    #[inline(always)]
+    pub(crate) fn dimension(depth: u32, part: u32) -> u32 {
+        FIRST_VERTEX + PER_VERTEX * depth + part
+    }
+
+    /// A number in [0, 1) for the roulette, apart from the points that must stay even.
+    #[inline]
+    pub(crate) fn chance(&self, stream: u32, index: u32, depth: u32) -> f32 {
+        let key =
+            ((u64::from(stream) << 32) | u64::from(index)) ^ mix(self.seed ^ u64::from(depth));
+        (mix(key) >> 40) as f32 * (1.0 / 16_777_216.0)
+    }
+}

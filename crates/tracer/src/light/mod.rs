@@ -1,0 +1,224 @@
+//! What shines, how a direction toward it is chosen, and with which density.
+
+mod environment;
+mod rect;
+mod selection;
+mod sphere;
+mod triangles;
+
+pub(crate) use environment::ImageLight;
+pub use environment::{Environment, EnvironmentImage};
+pub(crate) use rect::RectLight;
+pub(crate) use selection::Lights;
+pub(crate) use sphere::SphereLight;
+pub(crate) use triangles::TriangleLight;
+
+use crate::math::{F, U, sin_cos};
+use crate::path::NONE;
+use brdf::{LANES, Lanes3};
+use glam::{DVec3, Vec3};
+use rect::Toward;
+use spectrum::Samples;
+use std::f32::consts::PI;
+
+/// A light without extent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum PointLight<const N: usize> {
+    /// Shines from one point.
+    Point {
+        /// Where.
+        position: DVec3,
+        /// Radiant intensity: radiance of a small source times its area.
+        intensity: Samples<N>,
+    },
+    /// Shines along one direction from infinitely far.
+    Directional {
+        /// The way the light travels, any length but zero.
+        direction: DVec3,
+        /// On a plane across the direction.
+        irradiance: Samples<N>,
+    },
+}
+
+/// The shape of a light.
+#[derive(Clone, Debug)]
+pub(crate) enum Emitter<const N: usize> {
+    Rect(RectLight),
+    Sphere(SphereLight),
+    Triangles(TriangleLight),
+    Point(Vec3),
+    /// Toward the light.
+    Directional(Vec3),
+    Constant,
+    Image(ImageLight<N>),
+}
+
+/// A light: shape, strength and the probability that it is the one asked.
+#[derive(Clone, Debug)]
+pub(crate) struct Light<const N: usize> {
+    pub(crate) emitter: Emitter<N>,
+    /// Radiance, intensity or irradiance by kind; unused by a picture.
+    pub(crate) strength: [f32; N],
+    /// Primitive of an analytic shape, or [`NONE`].
+    pub(crate) prim: u32,
+    pub(crate) probability: f32,
+}
+
+/// [`LANES`] directions toward lights.
+#[derive(Clone, Debug)]
+pub(crate) struct LightLanes<const N: usize> {
+    pub(crate) wi: Lanes3,
+    pub(crate) distance: F,
+    /// Per solid angle, times the probability of the light; 0 = nothing.
+    pub(crate) pdf: F,
+    /// 1 if the material could find the light as well, 0 for lights without extent.
+    pub(crate) shared: F,
+    pub(crate) radiance: [F; N],
+    /// The primitive that shines, or [`NONE`].
+    pub(crate) prim: U,
+}
+
+impl<const N: usize> LightLanes<N> {
+    pub(crate) const EMPTY: Self = Self {
+        wi: Lanes3::ZERO,
+        distance: [0.0; LANES],
+        pdf: [0.0; LANES],
+        shared: [0.0; LANES],
+        radiance: [[0.0; LANES]; N],
+        prim: [NONE; LANES],
+    };
+
+    #[inline(always)]
+    fn set(&mut self, k: usize, toward: Toward, probability: f32) {
+        self.wi.set(k, toward.wi);
+        self.distance[k] = toward.distance;
+        self.pdf[k] = toward.pdf * probability;
+    }
+}
+
+impl<const N: usize> Light<N> {
+    /// Fills the lanes of `out` for the points `p`.
+    #[inline(always)]
+    pub(crate) fn sample(&self, p: &Lanes3, u: &[F; 2], out: &mut LightLanes<N>) {
+        for c in 0..N {
+            out.radiance[c] = [self.strength[c]; LANES];
+        }
+        out.shared = [1.0; LANES];
+        out.prim = [self.prim; LANES];
+        match &self.emitter {
+            Emitter::Rect(light) => {
+                for k in 0..LANES {
+                    out.set(
+                        k,
+                        light.sample(p.get(k), u[0][k], u[1][k]),
+                        self.probability,
+                    );
+                }
+            }
+            Emitter::Sphere(light) => {
+                for k in 0..LANES {
+                    out.set(
+                        k,
+                        light.sample(p.get(k), u[0][k], u[1][k]),
+                        self.probability,
+                    );
+                }
+            }
+            Emitter::Triangles(light) => {
+                for k in 0..LANES {
+                    let (toward, prim) = light.sample(p.get(k), u[0][k], u[1][k]);
+                    out.set(k, toward, self.probability);
+                    out.prim[k] = prim;
+                }
+            }
+            Emitter::Image(light) => {
+                for k in 0..LANES {
+                    let (wi, pdf, radiance) = light.sample(u[0][k], u[1][k]);
+                    out.set(k, far(wi, pdf), self.probability);
+                    for c in 0..N {
+                        out.radiance[c][k] = radiance[c];
+                    }
+                }
+            }
+            Emitter::Constant => {
+                for k in 0..LANES {
+                    out.set(
+                        k,
+                        far(uniform(u[0][k], u[1][k]), 0.25 / PI),
+                        self.probability,
+                    );
+                }
+            }
+            Emitter::Point(_) | Emitter::Directional(_) => self.sample_point(p, out),
+        }
+    }
+
+    /// [`Self::sample`] for lights without extent.
+    #[inline(never)]
+    fn sample_point(&self, p: &Lanes3, out: &mut LightLanes<N>) {
+        out.shared = [0.0; LANES];
+        for k in 0..LANES {
+            let (toward, fall) = match &self.emitter {
+                Emitter::Point(position) => {
+                    let to = *position - p.get(k);
+                    let d2 = to.length_squared();
+                    let toward = Toward {
+                        wi: to.normalize_or_zero(),
+                        distance: d2.sqrt(),
+                        pdf: if d2 > 0.0 { 1.0 } else { 0.0 },
+                    };
+                    (toward, 1.0 / d2)
+                }
+                Emitter::Directional(wi) => (far(*wi, 1.0), 1.0),
+                _ => (far(Vec3::Z, 0.0), 0.0),
+            };
+            out.set(k, toward, self.probability);
+            for c in 0..N {
+                out.radiance[c][k] *= fall;
+            }
+        }
+    }
+
+    /// Density with which [`Self::sample`] from `o` chooses the point met at `t` along `d`, where `normal` is the
+    /// front normal, times the probability of the light. For environments only `d` counts.
+    #[inline]
+    pub(crate) fn pdf(&self, o: Vec3, d: Vec3, t: f32, normal: Vec3) -> f32 {
+        let pdf = match &self.emitter {
+            Emitter::Rect(light) => light.pdf(o, t),
+            Emitter::Sphere(light) => light.pdf(o),
+            Emitter::Triangles(light) => light.pdf(normal, d, t),
+            Emitter::Image(light) => light.pdf(d),
+            Emitter::Constant => 0.25 / PI,
+            Emitter::Point(_) | Emitter::Directional(_) => 0.0,
+        };
+        pdf * self.probability
+    }
+
+    /// Radiance toward `-d` of an emitter that was met.
+    #[inline]
+    pub(crate) fn radiance(&self, d: Vec3) -> [f32; N] {
+        match &self.emitter {
+            Emitter::Image(light) => light.radiance(d),
+            _ => self.strength,
+        }
+    }
+}
+
+#[inline(always)]
+fn far(wi: Vec3, pdf: f32) -> Toward {
+    Toward {
+        wi,
+        distance: f32::INFINITY,
+        pdf,
+    }
+}
+
+/// A direction even over the sphere.
+#[inline(always)]
+fn uniform(u: f32, v: f32) -> Vec3 {
+    let z = 1.0 - 2.0 * u;
+    let r = (4.0 * u * (1.0 - u)).max(0.0).sqrt();
+    let (s, c) = sin_cos(2.0 * PI * v - PI);
+    Vec3::new(r * c, r * s, z)
+}

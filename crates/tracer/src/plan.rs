@@ -1,0 +1,65 @@
+//! What a render leaves out because its scene does not need it.
+
+use crate::filter::PixelFilter;
+use crate::scene::Scene;
+use crate::settings::{Settings, Strategy};
+use std::fmt;
+
+/// Work that is not done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum LeftOut {
+    /// No triangles: no tree is built or walked.
+    Triangles,
+    /// No shading normals: no test whether light leaks through a surface.
+    ShadingNormals,
+    /// No environment: rays that leave the scene end at once.
+    Environment,
+    /// Vertices ask no light: no points on lights, no evaluations, no shadow rays.
+    Lights,
+    /// One light to ask: no choice, one dimension of the points less.
+    LightChoice,
+    /// No roulette: no chance drawn, no path ended by it.
+    Roulette,
+    /// Even pixels: no table of filter quantiles.
+    Filter,
+}
+
+impl fmt::Display for LeftOut {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Triangles => "triangles: no tree is built or walked",
+            Self::ShadingNormals => "shading normals: no test for leaking light",
+            Self::Environment => "environment: rays that leave the scene end at once",
+            Self::Lights => "asking lights: no evaluations for them, no shadow rays",
+            Self::LightChoice => "choice of a light: one dimension of the points less",
+            Self::Roulette => "roulette: no path ends by chance",
+            Self::Filter => "pixel filter: samples are even over the pixel",
+        })
+    }
+}
+
+impl<const N: usize> Scene<N> {
+    /// What [`crate::render`] does without for this scene and these settings.
+    #[must_use]
+    pub fn left_out(&self, settings: &Settings) -> Vec<LeftOut> {
+        let lights = match settings.strategy {
+            Strategy::LightOnly => &self.all_lights,
+            Strategy::Mis | Strategy::BsdfOnly => &self.lights,
+        };
+        let asked = settings.strategy != Strategy::BsdfOnly && lights.any();
+        let all = [
+            (LeftOut::Triangles, self.geometry.bvh.is_none()),
+            (LeftOut::ShadingNormals, !self.smooth),
+            (LeftOut::Environment, self.environment.is_none()),
+            (LeftOut::Lights, !asked),
+            (LeftOut::LightChoice, asked && !lights.several()),
+            (LeftOut::Roulette, settings.roulette.is_none()),
+            (LeftOut::Filter, settings.filter == PixelFilter::Box),
+        ];
+        all.iter()
+            .filter(|(_, out)| *out)
+            .map(|(what, _)| *what)
+            .collect()
+    }
+}

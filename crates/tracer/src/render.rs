@@ -1,0 +1,145 @@
+//! Passes over the picture, tile by tile.
+
+use crate::batch::{Batch, Samples, Workspace};
+use crate::film::{Film, TILE, Tile};
+use crate::kernel::Kernel;
+use crate::scene::Scene;
+use crate::settings::Settings;
+use crate::stats::Stats;
+use rayon::prelude::*;
+use std::ops::ControlFlow;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Samples of each pixel of a tile that travel together: 2048 paths fill the lanes even when few go on, and their
+/// state fits the second-level cache.
+const SAMPLES: u32 = 8;
+
+/// What watches a render.
+pub trait Progress<const N: usize>: Sync {
+    /// Asked between batches; true ends the render, leaving a valid film.
+    fn cancelled(&self) -> bool {
+        false
+    }
+
+    /// Told after each tile how many paths it took.
+    fn tile_done(&self, paths: u64) {
+        let _ = paths;
+    }
+
+    /// Told after each pass over the picture; may end the render.
+    fn pass_done(&self, film: &Film<N>) -> ControlFlow<()> {
+        let _ = film;
+        ControlFlow::Continue(())
+    }
+}
+
+/// Nobody watches.
+impl<const N: usize> Progress<N> for () {}
+
+/// Set it to end the render.
+impl<const N: usize> Progress<N> for AtomicBool {
+    fn cancelled(&self) -> bool {
+        self.load(Ordering::Relaxed)
+    }
+}
+
+/// Why a render did not start.
+#[derive(Debug, thiserror::Error)]
+#[error("threads could not be started: {0}")]
+pub struct RenderError(#[from] rayon::ThreadPoolBuildError);
+
+/// Adds samples to `film` until every pixel has `settings.spp`, in passes that double the count.
+///
+/// The result depends on the scene, the settings and the size of the film, not on threads or interruptions: a film
+/// that was cancelled, stored and restored goes on to the same bits.
+///
+/// # Errors
+/// If the threads that were asked for can't be started.
+pub fn render<const N: usize>(
+    scene: &Scene<N>,
+    settings: &Settings,
+    film: &mut Film<N>,
+    progress: &dyn Progress<N>,
+) -> Result<Stats, RenderError> {
+    match settings.threads {
+        None => Ok(passes(scene, settings, film, progress)),
+        Some(threads) => {
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(threads.get())
+                .build()?;
+            Ok(pool.install(|| passes(scene, settings, film, progress)))
+        }
+    }
+}
+
+fn passes<const N: usize>(
+    scene: &Scene<N>,
+    settings: &Settings,
+    film: &mut Film<N>,
+    progress: &dyn Progress<N>,
+) -> Stats {
+    let kernel = Kernel::new(
+        scene,
+        settings,
+        [film.width(), film.height()],
+        film.replicates(),
+    );
+    let pool = Mutex::new(Vec::new());
+    let mut target = film.replicates().next_power_of_two().max(SAMPLES);
+    loop {
+        let aim = target.min(settings.spp);
+        if film.spp() < aim {
+            film.tiles
+                .par_iter_mut()
+                .for_each(|tile| run_tile(&kernel, &pool, tile, aim, progress));
+            if progress.cancelled() || progress.pass_done(film).is_break() {
+                break;
+            }
+        }
+        if aim == settings.spp {
+            break;
+        }
+        target = target.saturating_mul(2);
+    }
+    let mut stats = Stats::default();
+    let workspaces: Vec<Workspace<N>> = pool.into_inner().unwrap_or_default();
+    for workspace in &workspaces {
+        stats += workspace.stats;
+    }
+    stats
+}
+
+/// Takes one tile to `aim` samples a pixel.
+fn run_tile<const N: usize>(
+    kernel: &Kernel<'_, N>,
+    pool: &Mutex<Vec<Workspace<N>>>,
+    tile: &mut Tile<N>,
+    aim: u32,
+    progress: &dyn Progress<N>,
+) {
+    let take = || pool.lock().ok()?.pop();
+    let mut workspace = take().unwrap_or_else(|| {
+        Workspace::new(
+            (TILE * TILE * SAMPLES) as usize,
+            kernel.scene.materials.len(),
+        )
+    });
+    let before = workspace.stats.paths;
+    while tile.done < aim && !progress.cancelled() {
+        let samples = Samples {
+            first: tile.done,
+            count: SAMPLES.min(aim - tile.done),
+        };
+        kernel.arch.dispatch(Batch {
+            workspace: &mut workspace,
+            kernel,
+            tile,
+            samples,
+        });
+    }
+    progress.tile_done(workspace.stats.paths - before);
+    if let Ok(mut pool) = pool.lock() {
+        pool.push(workspace);
+    }
+}

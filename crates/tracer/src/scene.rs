@@ -1,0 +1,156 @@
+//! What a caller describes, and the scene that is rendered.
+
+use crate::build::Builder;
+use crate::camera::Camera;
+use crate::geometry::Geometry;
+use crate::light::{Environment, Lights, PointLight};
+use crate::shape::Shape;
+use brdf::Material;
+use glam::DAffine3;
+use spectrum::Samples;
+
+/// A shape in the world with its surface.
+#[derive(Clone, Debug)]
+pub struct Object<const N: usize> {
+    /// What it is.
+    pub shape: Shape,
+    /// From the shape's coordinates to the world's.
+    pub transform: DAffine3,
+    /// Index into [`Description::materials`].
+    pub material: usize,
+    /// Radiance its front sends out.
+    pub emission: Option<Samples<N>>,
+    /// Whether the back is black; otherwise both sides reflect alike.
+    pub one_sided: bool,
+}
+
+impl<const N: usize> Object<N> {
+    /// A shape where it stands, with a material, not shining, reflecting on both sides.
+    #[must_use]
+    pub fn new(shape: Shape, material: usize) -> Self {
+        Self {
+            shape,
+            transform: DAffine3::IDENTITY,
+            material,
+            emission: None,
+            one_sided: false,
+        }
+    }
+}
+
+/// Everything a picture is made of.
+///
+/// Materials are asked in a local frame whose z is the normal on the viewer's side. Its x and y depend on the normal
+/// alone: reflectances that are not isotropic are turned with it.
+pub struct Description<const N: usize> {
+    /// Who looks.
+    pub camera: Camera,
+    /// Surfaces, referred to by index.
+    pub materials: Vec<Box<dyn Material<N>>>,
+    /// Shapes.
+    pub objects: Vec<Object<N>>,
+    /// Lights without extent.
+    pub lights: Vec<PointLight<N>>,
+    /// What is seen where nothing is; `None` is black.
+    pub environment: Option<Environment<N>>,
+}
+
+impl<const N: usize> std::fmt::Debug for Description<N> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Description")
+            .field("camera", &self.camera)
+            .field("materials", &self.materials.len())
+            .field("objects", &self.objects.len())
+            .field("lights", &self.lights)
+            .finish_non_exhaustive()
+    }
+}
+
+/// Why a description makes no scene.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// The camera can't look that way.
+    #[error("camera: {0}")]
+    Camera(&'static str),
+    /// An object is not usable.
+    #[error("object {object}: {reason}")]
+    Object {
+        /// Its index.
+        object: usize,
+        /// What was expected.
+        reason: String,
+    },
+    /// A light is not usable.
+    #[error("light {light}: {reason}")]
+    Light {
+        /// Its index.
+        light: usize,
+        /// What was expected.
+        reason: &'static str,
+    },
+    /// The environment is not usable.
+    #[error("environment: {0}")]
+    Environment(&'static str),
+    /// More primitives than can be counted.
+    #[error("more than {} primitives", u32::MAX >> 2)]
+    TooMany,
+}
+
+/// What the renderer needs to know of an object once its shape is in [`Geometry`].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Surface {
+    pub(crate) material: u32,
+    /// Index into the lights, or [`crate::path::NONE`].
+    pub(crate) light: u32,
+    pub(crate) one_sided: bool,
+}
+
+/// A scene ready to be rendered.
+pub struct Scene<const N: usize> {
+    pub(crate) camera: Camera,
+    pub(crate) materials: Vec<Box<dyn Material<N>>>,
+    pub(crate) geometry: Geometry,
+    pub(crate) surfaces: Vec<Surface>,
+    /// For [`crate::Strategy::Mis`].
+    pub(crate) lights: Lights<N>,
+    /// For [`crate::Strategy::LightOnly`], where a constant environment is asked as well.
+    pub(crate) all_lights: Lights<N>,
+    /// Index of the environment among the lights.
+    pub(crate) environment: Option<u32>,
+    /// Whether any triangle is shaded with a normal of its own.
+    pub(crate) smooth: bool,
+    pub(crate) left_out: usize,
+}
+
+impl<const N: usize> std::fmt::Debug for Scene<N> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Scene")
+            .field("camera", &self.camera)
+            .field("materials", &self.materials.len())
+            .field("triangles", &self.geometry.triangles.len())
+            .finish_non_exhaustive()
+    }
+}
+
+impl<const N: usize> Scene<N> {
+    /// Checks a description, moves every shape into the world and builds trees and tables.
+    ///
+    /// # Errors
+    /// Says which part of the description can't be used and why.
+    pub fn new(description: Description<N>) -> Result<Self, SceneError> {
+        Builder::new(description)?.finish()
+    }
+
+    /// Triangles that are rendered.
+    #[must_use]
+    pub fn triangles(&self) -> usize {
+        self.geometry.triangles.len()
+    }
+
+    /// Triangles that were left out since they have no area.
+    #[must_use]
+    pub fn degenerate_triangles(&self) -> usize {
+        self.left_out
+    }
+}
