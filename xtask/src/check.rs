@@ -5,7 +5,17 @@ use anyhow::Result;
 
 pub(crate) fn run() -> Result<()> {
     process::run("cargo", &["fmt", "--all", "--check"])?;
-    process::run("cargo", &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"])?;
+    process::run(
+        "cargo",
+        &[
+            "clippy",
+            "--workspace",
+            "--all-targets",
+            "--",
+            "-D",
+            "warnings",
+        ],
+    )?;
     tidy::run()?;
     if process::has_cargo_tool("deny") {
         process::run("cargo", &["deny", "check", "bans", "licenses", "sources"])?;

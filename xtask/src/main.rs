@@ -1,7 +1,14 @@
 //! The project's chores: one verb, one file. Without a verb: the pre-push check.
 
-#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program for people at a terminal")]
-#![expect(clippy::disallowed_methods, reason = "chores read and write the repository's files")]
+#![expect(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a program for people at a terminal"
+)]
+#![expect(
+    clippy::disallowed_methods,
+    reason = "chores read and write the repository's files"
+)]
 
 mod check;
 mod process;

@@ -19,5 +19,8 @@ pub(crate) fn run(program: &str, args: &[&str]) -> Result<()> {
 
 /// True when `cargo NAME --version` works.
 pub(crate) fn has_cargo_tool(name: &str) -> bool {
-    Command::new("cargo").args([name, "--version"]).output().is_ok_and(|o| o.status.success())
+    Command::new("cargo")
+        .args([name, "--version"])
+        .output()
+        .is_ok_and(|o| o.status.success())
 }

@@ -12,8 +12,14 @@ pub(crate) fn run(args: &[String]) -> Result<()> {
     let nextest = process::has_cargo_tool("nextest");
     match (nextest, slow) {
         (true, false) => process::run("cargo", &["nextest", "run", "--workspace"])?,
-        (true, true) => process::run("cargo", &["nextest", "run", "--workspace", "--profile", "slow"])?,
-        (false, false) => process::run("cargo", &["test", "--workspace", "--tests", "--", "--skip", "slow_"])?,
+        (true, true) => process::run(
+            "cargo",
+            &["nextest", "run", "--workspace", "--profile", "slow"],
+        )?,
+        (false, false) => process::run(
+            "cargo",
+            &["test", "--workspace", "--tests", "--", "--skip", "slow_"],
+        )?,
         (false, true) => process::run("cargo", &["test", "--workspace", "--tests", "--", "slow_"])?,
     }
     if !slow {

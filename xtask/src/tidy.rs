@@ -25,7 +25,14 @@ pub(crate) fn run() -> Result<()> {
     let mut failed = 0;
     for (name, rule) in RULES {
         let complaints = rule()?;
-        println!("tidy: {name}: {}", if complaints.is_empty() { "ok".into() } else { format!("{} complaints", complaints.len()) });
+        println!(
+            "tidy: {name}: {}",
+            if complaints.is_empty() {
+                "ok".into()
+            } else {
+                format!("{} complaints", complaints.len())
+            }
+        );
         for complaint in &complaints {
             println!("  {complaint}");
         }

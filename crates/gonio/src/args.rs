@@ -7,9 +7,11 @@ use std::path::PathBuf;
 /// Check, see, convert and render measured reflectance.
 #[derive(Debug, Parser)]
 #[command(name = "gonio", version, arg_required_else_help = false)]
-#[command(after_help = "Angles are degrees, wavelengths nm, reflectance f_r in 1/sr without the cosine.\n\
+#[command(
+    after_help = "Angles are degrees, wavelengths nm, reflectance f_r in 1/sr without the cosine.\n\
 Exit codes: 0 fine, 1 bad input or failed work, 2 bad usage, 3 findings above the asked severity.\n\
-Without a verb: the same as `gonio render`, the embedded default scene.")]
+Without a verb: the same as `gonio render`, the embedded default scene."
+)]
 pub(crate) struct Cli {
     /// Folders searched for material files (also the environment variable `GONIO_DATA`).
     #[arg(long, global = true, value_name = "DIR")]
@@ -207,10 +209,12 @@ pub(crate) struct Measure {
 
 /// Compare two EXR images of one size.
 #[derive(Debug, Args)]
-#[command(after_help = "rmse = sqrt(mean (a-b)^2); rel_mse = mean (a-b)^2/(b^2 + (0.01 mean b)^2); rel_rmse = sqrt(sum (a-b)^2/sum b^2).
+#[command(
+    after_help = "rmse = sqrt(mean (a-b)^2); rel_mse = mean (a-b)^2/(b^2 + (0.01 mean b)^2); rel_rmse = sqrt(sum (a-b)^2/sum b^2).
 Where both images carry their variance, per-pixel Z scores are summarised too.
 Example:
-  gonio compare a.exr b.exr --json")]
+  gonio compare a.exr b.exr --json"
+)]
 pub(crate) struct Compare {
     /// The image under test.
     pub(crate) a: PathBuf,
@@ -221,7 +225,10 @@ pub(crate) struct Compare {
 impl Render {
     /// What `gonio` without a verb does.
     pub(crate) fn embedded_default() -> Self {
-        Self { output: PathBuf::from("gonio.exr"), ..Self::default() }
+        Self {
+            output: PathBuf::from("gonio.exr"),
+            ..Self::default()
+        }
     }
 }
 
@@ -234,11 +241,16 @@ fn parse_theta(text: &str) -> Result<f64, String> {
 }
 
 fn parse_finite(text: &str) -> Result<f64, String> {
-    text.parse().ok().filter(|v: &f64| v.is_finite()).ok_or_else(|| "expected a finite number".into())
+    text.parse()
+        .ok()
+        .filter(|v: &f64| v.is_finite())
+        .ok_or_else(|| "expected a finite number".into())
 }
 
 fn parse_size(text: &str) -> Result<(u32, u32), String> {
-    let sides = text.split_once('x').and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
+    let sides = text
+        .split_once('x')
+        .and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
     match sides {
         Some((w, h)) if (1..=16_384).contains(&w) && (1..=16_384).contains(&h) => Ok((w, h)),
         _ => Err("expected WIDTHxHEIGHT, each 1 to 16384, such as 640x480".into()),

@@ -25,11 +25,23 @@ fn channels(material: &dyn Measured, theta_i: f64, theta_o: f64) -> Vec<f64> {
 pub(crate) fn shown_channels(basis: &Basis) -> Vec<(usize, String, Color)> {
     let names = basis.names();
     match basis {
-        Basis::Rgb(_) => [[200, 30, 30], [20, 140, 40], [40, 70, 210]].into_iter().enumerate().map(|(c, k)| (c, names[c].clone(), k)).collect(),
+        Basis::Rgb(_) => [[200, 30, 30], [20, 140, 40], [40, 70, 210]]
+            .into_iter()
+            .enumerate()
+            .map(|(c, k)| (c, names[c].clone(), k))
+            .collect(),
         _ => {
             let count = basis.len().min(5);
-            let at = |k: usize| if count < 2 { 0 } else { k * (basis.len() - 1) / (count - 1) };
-            (0..count).map(|k| (at(k), names[at(k)].clone(), palette(k))).collect()
+            let at = |k: usize| {
+                if count < 2 {
+                    0
+                } else {
+                    k * (basis.len() - 1) / (count - 1)
+                }
+            };
+            (0..count)
+                .map(|k| (at(k), names[at(k)].clone(), palette(k)))
+                .collect()
         }
     }
 }
@@ -38,7 +50,12 @@ pub(crate) fn shown_channels(basis: &Basis) -> Vec<(usize, String, Color)> {
 pub(crate) fn lobes(material: &dyn Measured, label: &str, theta_i: f64) -> Vec<Curve> {
     let mut curves: Vec<Curve> = shown_channels(material.basis())
         .into_iter()
-        .map(|(_, name, color)| Curve { label: format!("{label} {name}"), color, stroke: Stroke::Solid, points: Vec::new() })
+        .map(|(_, name, color)| Curve {
+            label: format!("{label} {name}"),
+            color,
+            stroke: Stroke::Solid,
+            points: Vec::new(),
+        })
         .collect();
     let shown = shown_channels(material.basis());
     for theta_o in lobe_angles() {
@@ -51,10 +68,22 @@ pub(crate) fn lobes(material: &dyn Measured, label: &str, theta_i: f64) -> Vec<C
 }
 
 /// The in-plane lobe of the luminance, to overlay several materials.
-pub(crate) fn luminance_lobe(material: &dyn Measured, label: &str, theta_i: f64, color: Color) -> Curve {
+pub(crate) fn luminance_lobe(
+    material: &dyn Measured,
+    label: &str,
+    theta_i: f64,
+    color: Color,
+) -> Curve {
     let weights = material.basis().luminance_weights();
-    let points = lobe_angles().map(|t| (t, dot(&channels(material, theta_i, t), &weights))).collect();
-    Curve { label: label.into(), color, stroke: Stroke::Solid, points }
+    let points = lobe_angles()
+        .map(|t| (t, dot(&channels(material, theta_i, t), &weights)))
+        .collect();
+    Curve {
+        label: label.into(),
+        color,
+        stroke: Stroke::Solid,
+        points,
+    }
 }
 
 fn lobe_angles() -> impl Iterator<Item = f64> {
@@ -74,7 +103,12 @@ pub(crate) fn slice(material: &dyn Measured, n: usize) -> Vec<f64> {
     let at = |k: usize| (k as f64 + 0.5) / n as f64 * FRAC_PI_2;
     (0..n * n)
         .map(|k| {
-            let (wi, wo) = HalfDiff { theta_h: at(k % n), theta_d: at(k / n), phi_d: FRAC_PI_2 }.directions();
+            let (wi, wo) = HalfDiff {
+                theta_h: at(k % n),
+                theta_d: at(k / n),
+                phi_d: FRAC_PI_2,
+            }
+            .directions();
             if wi.z <= 0.0 || wo.z <= 0.0 {
                 return f64::NAN;
             }
@@ -89,7 +123,12 @@ pub(crate) fn albedo(material: &dyn Measured, label: &str) -> Vec<Curve> {
     let shown = shown_channels(material.basis());
     let mut curves: Vec<Curve> = shown
         .iter()
-        .map(|(_, name, color)| Curve { label: format!("{label} {name}"), color: *color, stroke: Stroke::Solid, points: Vec::new() })
+        .map(|(_, name, color)| Curve {
+            label: format!("{label} {name}"),
+            color: *color,
+            stroke: Stroke::Solid,
+            points: Vec::new(),
+        })
         .collect();
     for theta_deg in (0..=88).step_by(2).map(f64::from) {
         let values = directional_albedo(material, theta_deg.to_radians(), ALBEDO_RINGS);
@@ -128,7 +167,11 @@ mod tests {
     #[test]
     fn lobe_peaks_at_the_mirror_direction() {
         let curves = lobes(&Lobe(Basis::Rgb(RgbSpace::srgb())), "x", 0.6);
-        let peak = curves[0].points.iter().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
+        let peak = curves[0]
+            .points
+            .iter()
+            .max_by(|a, b| a.1.total_cmp(&b.1))
+            .unwrap();
         // the step is a quarter degree
         assert!((peak.0 - 0.6).abs() < 0.005, "{peak:?}");
         assert_eq!(curves.len(), 3, "one a channel");
@@ -137,12 +180,17 @@ mod tests {
     #[test]
     fn slice_is_nan_below_the_horizon() {
         let values = slice(&Lobe(Basis::Rgb(RgbSpace::srgb())), 16);
-        assert!(values[0].is_finite() && values[255].is_nan(), "corner values");
+        assert!(
+            values[0].is_finite() && values[255].is_nan(),
+            "corner values"
+        );
     }
 
     #[test]
     fn bands_are_thinned_to_five() {
-        let shown = shown_channels(&Basis::Bands((0..31).map(|k| 400.0 + 10.0 * f64::from(k)).collect()));
+        let shown = shown_channels(&Basis::Bands(
+            (0..31).map(|k| 400.0 + 10.0 * f64::from(k)).collect(),
+        ));
         let names: Vec<&str> = shown.iter().map(|s| s.1.as_str()).collect();
         assert_eq!(names, ["400nm", "470nm", "550nm", "620nm", "700nm"]);
     }

@@ -1,6 +1,10 @@
 //! gonio's command line: parse, dispatch to a verb, return an exit code.
 
-#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program for people at a terminal")]
+#![expect(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a program for people at a terminal"
+)]
 
 mod args;
 mod curves;

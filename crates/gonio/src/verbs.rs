@@ -28,7 +28,13 @@ impl Context {
         let environment = std::env::var_os("GONIO_DATA").filter(|v| !v.is_empty());
         let folders = cli.data.iter().cloned().chain(environment.map(Into::into));
         let cache = cache_folder().map(Cache::at).unwrap_or_default();
-        Self { places: Places { data: DataDirs::new(folders), cache }, json: cli.json }
+        Self {
+            places: Places {
+                data: DataDirs::new(folders),
+                cache,
+            },
+            json: cli.json,
+        }
     }
 
     /// Prints `value` as JSON, or calls `text`.
@@ -44,7 +50,11 @@ impl Context {
 
 /// `GONIO_CACHE`, or `gonio` in the user's own cache folder; none where neither is known.
 fn cache_folder() -> Option<PathBuf> {
-    let set = |name| std::env::var_os(name).filter(|v| !v.is_empty()).map(PathBuf::from);
+    let set = |name| {
+        std::env::var_os(name)
+            .filter(|v| !v.is_empty())
+            .map(PathBuf::from)
+    };
     set("GONIO_CACHE")
         .or_else(|| set("XDG_CACHE_HOME").map(|d| d.join("gonio")))
         .or_else(|| set("HOME").map(|d| d.join(".cache/gonio")))

@@ -2,13 +2,23 @@
 
 #![expect(clippy::disallowed_methods, reason = "an example writes its pictures")]
 
-use plot::{Axis, Chart, Curve, HeatMap, PlotError, PolarPlot, Radius, Scale, Stroke, palette, png};
+use plot::{
+    Axis, Chart, Curve, HeatMap, PlotError, PolarPlot, Radius, Scale, Stroke, palette, png,
+};
 use std::error::Error;
 
 fn lobe(k: usize, power: i32, mirror: f64) -> Curve {
     let value = |t: f64| 0.1 + (t - mirror).cos().max(0.0).powi(power);
-    let points = (-900..=900).map(|d| (f64::from(d) / 10.0).to_radians()).map(|t| (t, value(t))).collect();
-    Curve { label: format!("cos^{power}"), color: palette(k), stroke: Stroke::Solid, points }
+    let points = (-900..=900)
+        .map(|d| (f64::from(d) / 10.0).to_radians())
+        .map(|t| (t, value(t)))
+        .collect();
+    Curve {
+        label: format!("cos^{power}"),
+        color: palette(k),
+        stroke: Stroke::Solid,
+        points,
+    }
 }
 
 fn pictures() -> Result<[(&'static str, String); 4], PlotError> {
@@ -22,8 +32,15 @@ fn pictures() -> Result<[(&'static str, String); 4], PlotError> {
     let decay = |k: usize, slope: f64| Curve {
         label: format!("slope {slope}"),
         color: palette(k),
-        stroke: if k == 2 { Stroke::Dashed } else { Stroke::Solid },
-        points: (0..20).map(|n| 1.5f64.powi(n)).map(|x| (x, x.powf(slope))).collect(),
+        stroke: if k == 2 {
+            Stroke::Dashed
+        } else {
+            Stroke::Solid
+        },
+        points: (0..20)
+            .map(|n| 1.5_f64.powi(n))
+            .map(|x| (x, x.powf(slope)))
+            .collect(),
     };
     let chart = Chart {
         title: "Error against run time".into(),
@@ -31,7 +48,9 @@ fn pictures() -> Result<[(&'static str, String); 4], PlotError> {
         y: Axis::log("relative RMSE"),
         curves: vec![decay(0, -0.5), decay(1, -0.8), decay(2, -1.0)],
     };
-    let values = (0..64 * 64).map(|k| (f64::from(k % 64 - 32).hypot(f64::from(k / 64 - 32)) / -4.0).exp()).collect();
+    let values = (0..64 * 64)
+        .map(|k| (f64::from(k % 64 - 32).hypot(f64::from(k / 64 - 32)) / -4.0).exp())
+        .collect();
     let map = HeatMap {
         title: "A slice".into(),
         x: ("theta_h (deg)".into(), 0.0, 90.0),

@@ -95,7 +95,7 @@ impl Ranged for Placed {
 /// Multiples of 1, 2 or 5 times a power of ten inside the range, at most `most` of them.
 fn linear_ticks(range: &Range<f64>, most: usize) -> Vec<f64> {
     let rough = (range.end - range.start) / most.max(2) as f64;
-    let decade = 10f64.powf(rough.log10().floor());
+    let decade = 10_f64.powf(rough.log10().floor());
     let step = [1.0, 2.0, 5.0, 10.0]
         .into_iter()
         .map(|m| m * decade)
@@ -123,7 +123,7 @@ fn log_ticks(range: &Range<f64>, most: usize) -> Vec<f64> {
     let mut ticks = Vec::new();
     let mut decade = *decades.start();
     while decade <= *decades.end() {
-        ticks.extend(factors.iter().map(|f| f * 10f64.powf(decade)));
+        ticks.extend(factors.iter().map(|f| f * 10_f64.powf(decade)));
         decade += every;
     }
     ticks.retain(|t| *t >= range.start * (1.0 - 1e-9) && *t <= range.end * (1.0 + 1e-9));

@@ -4,6 +4,7 @@ use crate::curve::{Curve, Stroke};
 use crate::error::PlotError;
 use plotters::coord::Shift;
 use plotters::prelude::*;
+use std::f64::consts::FRAC_PI_2;
 
 /// What the distance from the centre means.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,7 +72,7 @@ impl Frame {
                 // a ring closer to the rim than its label is wide would be unreadable
                 let mut exponent = (top - 0.06 * decades).floor();
                 while exponent > top - decades {
-                    rings.push((10f64.powf(exponent), format!("1e{exponent}")));
+                    rings.push((10_f64.powf(exponent), format!("1e{exponent}")));
                     exponent -= (decades / 6.0).ceil();
                 }
                 rings
@@ -181,7 +182,7 @@ fn draw_grid<B: DrawingBackend>(
         let arc: Vec<_> = (-90..=90)
             .map(|deg| frame.place(f64::from(deg).to_radians(), value))
             .collect();
-        let (x, y) = frame.place(90f64.to_radians(), value);
+        let (x, y) = frame.place(90_f64.to_radians(), value);
         area.draw(&PathElement::new(arc, faint))?;
         area.draw(&Text::new(label, (x, y + 12), text.clone()))?;
     }
@@ -196,7 +197,7 @@ fn draw_grid<B: DrawingBackend>(
     }
     let (x, y) = frame.at(0.0, 0.0);
     area.draw(&PathElement::new(
-        [frame.at(-1.5708, 1.0), frame.at(1.5708, 1.0)],
+        [frame.at(-FRAC_PI_2, 1.0), frame.at(FRAC_PI_2, 1.0)],
         BLACK.stroke_width(1),
     ))?;
     area.draw(&Text::new(label.to_owned(), (x, y + 28), text))
@@ -278,7 +279,7 @@ mod tests {
             radius: Radius::Linear,
         };
         assert_eq!(frame.place(0.0, 2.0), (100, 50));
-        assert_eq!(frame.place(90f64.to_radians(), 1.0), (125, 100));
+        assert_eq!(frame.place(90_f64.to_radians(), 1.0), (125, 100));
     }
 
     #[test]

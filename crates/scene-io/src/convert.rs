@@ -31,7 +31,11 @@ const MERL_DIMS: [usize; 3] = [90, 90, 180];
 ///
 /// # Errors
 /// Unreadable input, an extension without a writer, content the format has no place for.
-pub fn convert(input: &Path, output: &Path, options: &MaterialOptions) -> Result<Conversion, Error> {
+pub fn convert(
+    input: &Path,
+    output: &Path,
+    options: &MaterialOptions,
+) -> Result<Conversion, Error> {
     let loaded = load_measured(input, options)?;
     let target = writable_format(output)?;
     if target == loaded.format.name {
@@ -45,43 +49,76 @@ pub fn convert(input: &Path, output: &Path, options: &MaterialOptions) -> Result
         _ => to_pbrt_text(&loaded, &mut lost)?,
     };
     write::bytes(output, &bytes)?;
-    let round_trip_error = difference(&*loaded.measured, &*load_measured(output, options)?.measured);
-    Ok(Conversion { lost, round_trip_error })
+    let round_trip_error = difference(
+        &*loaded.measured,
+        &*load_measured(output, options)?.measured,
+    );
+    Ok(Conversion {
+        lost,
+        round_trip_error,
+    })
 }
 
 /// Writes the weighted sum of `parts` as a MERL file.
 ///
 /// # Errors
 /// Unreadable inputs, an output that is not a MERL file, weights that are not finite.
-pub fn mix_files(parts: &[(&Path, f64)], output: &Path, options: &MaterialOptions) -> Result<Conversion, Error> {
+pub fn mix_files(
+    parts: &[(&Path, f64)],
+    output: &Path,
+    options: &MaterialOptions,
+) -> Result<Conversion, Error> {
     if writable_format(output)? != "merl" {
-        return Err(Error::unsupported("expected an output ending in .binary: mixtures are written on the MERL grid").in_file(output));
+        return Err(Error::unsupported(
+            "expected an output ending in .binary: mixtures are written on the MERL grid",
+        )
+        .in_file(output));
     }
     let mut tables = Vec::new();
     for (path, weight) in parts {
         tables.push((linear_srgb_table(&load_measured(path, options)?)?, *weight));
     }
-    if tables.iter().any(|(t, _)| t.phi_domain() == PhiDomain::Full) {
+    if tables
+        .iter()
+        .any(|(t, _)| t.phi_domain() == PhiDomain::Full)
+    {
         // one part that is not reciprocal makes the sum so
         for (table, _) in &mut tables {
-            *table = Arc::new(table.resample([90, 90, 360], PhiDomain::Full, brdf_table::Interpolation::Linear));
+            *table = Arc::new(table.resample(
+                [90, 90, 360],
+                PhiDomain::Full,
+                brdf_table::Interpolation::Linear,
+            ));
         }
     }
     let borrowed: Vec<(&HalfDiffTable, f64)> = tables.iter().map(|(t, w)| (&**t, *w)).collect();
     let mixed = mix(&borrowed).map_err(|e| Error::invalid(e.to_string()))?;
     let mut lost = Vec::new();
     write::bytes(output, &to_merl(&mixed, &mut lost)?)?;
-    Ok(Conversion { lost, round_trip_error: 0.0 })
+    Ok(Conversion {
+        lost,
+        round_trip_error: 0.0,
+    })
 }
 
 /// The format that the extension of an output stands for, if it can be written.
 fn writable_format(output: &Path) -> Result<&'static str, Error> {
-    let extension = output.extension().and_then(|e| e.to_str()).unwrap_or_default();
+    let extension = output
+        .extension()
+        .and_then(|e| e.to_str())
+        .unwrap_or_default();
     let known = brdf_formats::FORMATS.iter().filter(|f| f.writer.is_some());
     let found = known.clone().find(|f| f.extensions.contains(&extension));
     found.map(|f| f.name).ok_or_else(|| {
-        let endings: Vec<String> = known.flat_map(|f| f.extensions).map(|e| format!(".{e}")).collect();
-        Error::unsupported(format!("expected an output ending in {}, found {extension:?}", endings.join(", "))).in_file(output)
+        let endings: Vec<String> = known
+            .flat_map(|f| f.extensions)
+            .map(|e| format!(".{e}"))
+            .collect();
+        Error::unsupported(format!(
+            "expected an output ending in {}, found {extension:?}",
+            endings.join(", ")
+        ))
+        .in_file(output)
     })
 }
 
@@ -95,31 +132,52 @@ fn linear_srgb_table(loaded: &LoadedMeasured) -> Result<Arc<HalfDiffTable>, Erro
     }
     let brdf = linear_srgb(loaded)?;
     let reciprocal = loaded.measured.symmetry().reciprocal;
-    let (dims, phi) = if reciprocal { (MERL_DIMS, PhiDomain::Reciprocal) } else { ([90, 90, 360], PhiDomain::Full) };
-    Ok(Arc::new(HalfDiffTable::from_fn(dims, phi, srgb, |wi, wo, out| {
-        out.copy_from_slice(&brdf.eval(wi, wo));
-        Status::Interpolated
-    })))
+    let (dims, phi) = if reciprocal {
+        (MERL_DIMS, PhiDomain::Reciprocal)
+    } else {
+        ([90, 90, 360], PhiDomain::Full)
+    };
+    Ok(Arc::new(HalfDiffTable::from_fn(
+        dims,
+        phi,
+        srgb,
+        |wi, wo, out| {
+            out.copy_from_slice(&brdf.eval(wi, wo));
+            Status::Interpolated
+        },
+    )))
 }
 
 fn linear_srgb(loaded: &LoadedMeasured) -> Result<Projected<Arc<dyn Measured>, 3>, Error> {
     let matrix = loaded.measured.basis().to_linear_srgb();
-    Projected::new(Arc::clone(&loaded.measured), matrix).ok_or_else(|| Error::invalid("expected as many channels as the basis has"))
+    Projected::new(Arc::clone(&loaded.measured), matrix)
+        .ok_or_else(|| Error::invalid("expected as many channels as the basis has"))
 }
 
 fn to_merl(table: &HalfDiffTable, lost: &mut Vec<String>) -> Result<Vec<u8>, Error> {
     let (file, loss) = table.to_merl().map_err(|e| Error::invalid(e.to_string()))?;
     if loss.filled_cells > 0 {
-        lost.push(format!("{} cells were not measured: written as -1", loss.filled_cells));
+        lost.push(format!(
+            "{} cells were not measured: written as -1",
+            loss.filled_cells
+        ));
     }
     if loss.negative_channels > 0 {
-        lost.push(format!("{} negative values: most readers take them for \"not measured\"", loss.negative_channels));
+        lost.push(format!(
+            "{} negative values: most readers take them for \"not measured\"",
+            loss.negative_channels
+        ));
     }
     if table.dims()[2] > MERL_DIMS[2] {
-        lost.push("not reciprocal: 360 azimuths are written, which readers of exactly 90x90x180 refuse".into());
+        lost.push(
+            "not reciprocal: 360 azimuths are written, which readers of exactly 90x90x180 refuse"
+                .into(),
+        );
     }
     if let Some(name) = loss.primaries {
-        lost.push(format!("the primaries ({name}): the format has no place for them"));
+        lost.push(format!(
+            "the primaries ({name}): the format has no place for them"
+        ));
     }
     Ok(file.into_bytes())
 }
@@ -127,10 +185,19 @@ fn to_merl(table: &HalfDiffTable, lost: &mut Vec<String>) -> Result<Vec<u8>, Err
 /// Rows stay rows; anything else is sampled in Cornell's directions.
 fn to_astm(loaded: &LoadedMeasured, lost: &mut Vec<String>) -> Result<Vec<u8>, Error> {
     let bytes = load::bytes(&loaded.path, load::MAX_FILE_BYTES)?;
-    if let File::PbrtText(text) = brdf_formats::read(bytes).map_err(|e| Error::invalid(e.to_string()))? {
+    if let File::PbrtText(text) =
+        brdf_formats::read(bytes).map_err(|e| Error::invalid(e.to_string()))?
+    {
         lost.push("the comments: the header has no place for them".into());
-        let fields = [("SAMPLE_NAME", "converted from pbrt-v2 text"), ("SAMPLE_TYPE", "isotropic")];
-        let file = AstmFile::new(&fields, Channels::Wavelengths(text.wavelengths_nm().to_vec()), text.rows().to_vec());
+        let fields = [
+            ("SAMPLE_NAME", "converted from pbrt-v2 text"),
+            ("SAMPLE_TYPE", "isotropic"),
+        ];
+        let file = AstmFile::new(
+            &fields,
+            Channels::Wavelengths(text.wavelengths_nm().to_vec()),
+            text.rows().to_vec(),
+        );
         return Ok(file.map_err(|e| Error::invalid(e.to_string()))?.to_bytes());
     }
     lost.push("everything between Cornell's directions (1489 rows) and beyond 80 degrees".into());
@@ -138,8 +205,18 @@ fn to_astm(loaded: &LoadedMeasured, lost: &mut Vec<String>) -> Result<Vec<u8>, E
         lost.push("the spectrum: linear sRGB was written as RGB".into());
     }
     let basis = Basis::Rgb(RgbSpace::trinitron());
-    let name = loaded.path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
-    let file = measure_astm(&linear_srgb(loaded)?, &basis, &name, &Instrument::default(), 0);
+    let name = loaded
+        .path
+        .file_stem()
+        .map(|s| s.to_string_lossy().into_owned())
+        .unwrap_or_default();
+    let file = measure_astm(
+        &linear_srgb(loaded)?,
+        &basis,
+        &name,
+        &Instrument::default(),
+        0,
+    );
     Ok(file.map_err(|e| Error::invalid(e.to_string()))?.to_bytes())
 }
 
@@ -148,7 +225,11 @@ fn to_pbrt_text(loaded: &LoadedMeasured, lost: &mut Vec<String>) -> Result<Vec<u
     let file = brdf_formats::read(bytes).map_err(|e| Error::invalid(e.to_string()))?;
     let (File::Astm(astm), Basis::Bands(nm)) = (&file, loaded.measured.basis()) else {
         let found = loaded.measured.basis().names().join(",");
-        let message = format!("expected rows of spectra for pbrt-v2 text, found {} ({})", loaded.format.title, found.chars().take(40).collect::<String>());
+        let message = format!(
+            "expected rows of spectra for pbrt-v2 text, found {} ({})",
+            loaded.format.title,
+            found.chars().take(40).collect::<String>()
+        );
         return Err(Error::new(ErrorKind::Unsupported, message).in_file(&loaded.path));
     };
     lost.push("the header: pbrt-v2 text has comments only".into());
@@ -171,11 +252,17 @@ fn difference(a: &dyn Measured, b: &dyn Measured) -> f64 {
     let (mut buffer, mut rng) = (Vec::new(), Rng::new(0));
     let (mut error, mut size) = (0.0, 0.0);
     for _ in 0..PAIRS {
-        let (wi, wo) = (warp::cosine_hemisphere(rng.uniform2()), warp::cosine_hemisphere(rng.uniform2()));
+        let (wi, wo) = (
+            warp::cosine_hemisphere(rng.uniform2()),
+            warp::cosine_hemisphere(rng.uniform2()),
+        );
         let (x, y) = (of_a(a, wi, wo, &mut buffer), of_b(b, wi, wo, &mut buffer));
         error += (y - x) * (y - x);
         size += x * x;
     }
-    if size > 0.0 { (error / size).sqrt() } else { error.sqrt() }
+    if size > 0.0 {
+        (error / size).sqrt()
+    } else {
+        error.sqrt()
+    }
 }
-

@@ -10,7 +10,11 @@ pub(super) struct Entry {
 }
 
 pub(super) enum Outcome {
-    Rendered { about: String, report: Value, plots: Vec<String> },
+    Rendered {
+        about: String,
+        report: Value,
+        plots: Vec<String>,
+    },
     /// Its data are not there.
     Skipped(String),
     Failed(String),
@@ -44,7 +48,10 @@ fn facts(report: &Value) -> String {
 }
 
 fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
 }
 
 pub(super) fn html(entries: &[Entry]) -> String {
@@ -57,9 +64,21 @@ pub(super) fn html(entries: &[Entry]) -> String {
         // writing to a String cannot fail
         let _infallible = write!(page, "<section><h2>{}</h2>", escaped(&entry.name));
         let body = match &entry.outcome {
-            Outcome::Rendered { about, report, plots } => {
-                let plots: String = plots.iter().map(|p| format!("<img src=\"{0}\" alt=\"{0}\">", escaped(p))).collect();
-                format!("<p>{}</p><p>{}</p><img src=\"{name}.png\" alt=\"{name}\">{plots}", escaped(about), escaped(&facts(report)), name = escaped(&entry.name))
+            Outcome::Rendered {
+                about,
+                report,
+                plots,
+            } => {
+                let plots: String = plots
+                    .iter()
+                    .map(|p| format!("<img src=\"{0}\" alt=\"{0}\">", escaped(p)))
+                    .collect();
+                format!(
+                    "<p>{}</p><p>{}</p><img src=\"{name}.png\" alt=\"{name}\">{plots}",
+                    escaped(about),
+                    escaped(&facts(report)),
+                    name = escaped(&entry.name)
+                )
             }
             Outcome::Skipped(why) => format!("<p>Skipped: {}.</p>", escaped(why)),
             Outcome::Failed(why) => format!("<p><b>Failed:</b> {}</p>", escaped(why)),
@@ -77,10 +96,21 @@ mod tests {
     #[test]
     fn page_names_every_scene_and_escapes() {
         let entries = [
-            Entry { name: "a<b".into(), outcome: Outcome::Skipped("brass.binary is not there".into()) },
-            Entry { name: "c".into(), outcome: Outcome::Failed("x & y".into()) },
+            Entry {
+                name: "a<b".into(),
+                outcome: Outcome::Skipped("brass.binary is not there".into()),
+            },
+            Entry {
+                name: "c".into(),
+                outcome: Outcome::Failed("x & y".into()),
+            },
         ];
         let page = html(&entries);
-        assert!(page.contains("a&lt;b") && page.contains("Skipped: brass.binary") && page.contains("x &amp; y"), "{page}");
+        assert!(
+            page.contains("a&lt;b")
+                && page.contains("Skipped: brass.binary")
+                && page.contains("x &amp; y"),
+            "{page}"
+        );
     }
 }

@@ -13,36 +13,74 @@ pub(super) const ARROWS: &[(&str, &[&str])] = &[
     ("testkit", &[]),
     ("brdf", &["spectrum", "sampling"]),
     ("brdf-models", &["brdf", "spectrum", "sampling"]),
-    ("brdf-table", &["brdf", "spectrum", "sampling", "brdf-formats"]),
-    ("brdf-measure", &["brdf", "spectrum", "sampling", "brdf-formats"]),
+    (
+        "brdf-table",
+        &["brdf", "spectrum", "sampling", "brdf-formats"],
+    ),
+    (
+        "brdf-measure",
+        &["brdf", "spectrum", "sampling", "brdf-formats"],
+    ),
     ("brdf-sampling", &["brdf", "sampling"]),
     ("tracer", &["brdf", "spectrum", "sampling"]),
     (
         "scene-io",
         &[
-            "spectrum", "sampling", "brdf-formats", "plot", "brdf", "brdf-models", "brdf-table", "brdf-measure", "brdf-sampling",
+            "spectrum",
+            "sampling",
+            "brdf-formats",
+            "plot",
+            "brdf",
+            "brdf-models",
+            "brdf-table",
+            "brdf-measure",
+            "brdf-sampling",
             "tracer",
         ],
     ),
     (
         "gonio",
         &[
-            "spectrum", "sampling", "brdf-formats", "plot", "brdf", "brdf-models", "brdf-table", "brdf-measure", "brdf-sampling",
-            "tracer", "scene-io",
+            "spectrum",
+            "sampling",
+            "brdf-formats",
+            "plot",
+            "brdf",
+            "brdf-models",
+            "brdf-table",
+            "brdf-measure",
+            "brdf-sampling",
+            "tracer",
+            "scene-io",
         ],
     ),
-    ("xtask", &["brdf-formats", "brdf-table", "brdf-measure", "brdf-models", "brdf", "scene-io", "spectrum"]),
+    (
+        "xtask",
+        &[
+            "brdf-formats",
+            "brdf-table",
+            "brdf-measure",
+            "brdf-models",
+            "brdf",
+            "scene-io",
+            "spectrum",
+        ],
+    ),
 ];
 
 pub(super) fn complaints() -> Result<Vec<String>> {
     let metadata = metadata()?;
-    let packages = metadata["packages"].as_array().context("cargo metadata has no packages")?;
+    let packages = metadata["packages"]
+        .as_array()
+        .context("cargo metadata has no packages")?;
     let ours: Vec<&str> = packages.iter().filter_map(|p| p["name"].as_str()).collect();
     let mut complaints = Vec::new();
     for package in packages {
         let name = package["name"].as_str().unwrap_or_default();
         let Some((_, allowed)) = ARROWS.iter().find(|(from, _)| *from == name) else {
-            complaints.push(format!("{name}: not in the arrow list (xtask/src/tidy/arrows.rs, ARCHITECTURE.md)"));
+            complaints.push(format!(
+                "{name}: not in the arrow list (xtask/src/tidy/arrows.rs, ARCHITECTURE.md)"
+            ));
             continue;
         };
         for dependency in package["dependencies"].as_array().into_iter().flatten() {
@@ -58,7 +96,13 @@ pub(super) fn complaints() -> Result<Vec<String>> {
 
 fn metadata() -> Result<Value> {
     let output = Command::new("cargo")
-        .args(["metadata", "--format-version", "1", "--no-deps", "--offline"])
+        .args([
+            "metadata",
+            "--format-version",
+            "1",
+            "--no-deps",
+            "--offline",
+        ])
         .current_dir(crate::repo::root())
         .output()
         .context("cannot start cargo metadata")?;

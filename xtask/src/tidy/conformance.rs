@@ -6,14 +6,19 @@ use regex_lite::Regex;
 use std::path::Path;
 
 pub(super) fn complaints() -> Result<Vec<String>> {
-    let implementation = Regex::new(r"\b(Brdf<[^>]*>|DirectionSampler|Measured) for (?:\w+::)*(\w+)")?;
+    let implementation =
+        Regex::new(r"\b(Brdf<[^>]*>|DirectionSampler|Measured) for (?:\w+::)*(\w+)")?;
     let mut complaints = Vec::new();
     for path in repo::files("crates", ".rs")? {
-        let Some(folder) = crate_of(&path) else { continue };
+        let Some(folder) = crate_of(&path) else {
+            continue;
+        };
         let text = repo::read(&path)?;
         let code = text.split("#[cfg(test)]").next().unwrap_or_default();
         for found in implementation.captures_iter(code) {
-            let (Some(role), Some(name)) = (found.get(1), found.get(2)) else { continue };
+            let (Some(role), Some(name)) = (found.get(1), found.get(2)) else {
+                continue;
+            };
             if !conformance_text(&folder)?.contains(name.as_str()) {
                 complaints.push(format!(
                     "{}: {} ({}) is not in {folder}/tests/conformance*",

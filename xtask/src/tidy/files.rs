@@ -17,7 +17,10 @@ pub(super) fn complaints() -> Result<Vec<String>> {
         let lines = text.lines().count();
         let generated = path.components().any(|c| c.as_os_str() == "generated");
         if lines > LIMIT && !generated {
-            complaints.push(format!("{}: {lines} lines, limit {LIMIT}", repo::shown(&path)));
+            complaints.push(format!(
+                "{}: {lines} lines, limit {LIMIT}",
+                repo::shown(&path)
+            ));
         }
     }
     Ok(complaints)

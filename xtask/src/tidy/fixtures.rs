@@ -10,7 +10,9 @@ pub(super) fn complaints() -> Result<Vec<String>> {
         .iter()
         .map(|path| repo::shown(path))
         .filter(|name| name != "data-fixtures/MANIFEST.md")
-        .filter(|name| !manifest.contains(&format!("`{}`", name.trim_start_matches("data-fixtures/"))))
+        .filter(|name| {
+            !manifest.contains(&format!("`{}`", name.trim_start_matches("data-fixtures/")))
+        })
         .map(|name| format!("{name}: not in data-fixtures/MANIFEST.md"))
         .collect())
 }

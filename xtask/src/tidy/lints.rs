@@ -5,11 +5,21 @@ use anyhow::Result;
 
 pub(super) fn complaints() -> Result<Vec<String>> {
     let mut complaints = Vec::new();
-    let manifests = [repo::files("crates", "Cargo.toml")?, repo::files("xtask", "Cargo.toml")?].concat();
-    for path in manifests.iter().filter(|p| !p.components().any(|c| c.as_os_str() == "fuzz")) {
+    let manifests = [
+        repo::files("crates", "Cargo.toml")?,
+        repo::files("xtask", "Cargo.toml")?,
+    ]
+    .concat();
+    for path in manifests
+        .iter()
+        .filter(|p| !p.components().any(|c| c.as_os_str() == "fuzz"))
+    {
         let text = repo::read(path)?;
         if !text.replace(' ', "").contains("[lints]\nworkspace=true") {
-            complaints.push(format!("{}: lacks `[lints] workspace = true`", repo::shown(path)));
+            complaints.push(format!(
+                "{}: lacks `[lints] workspace = true`",
+                repo::shown(path)
+            ));
         }
     }
     Ok(complaints)

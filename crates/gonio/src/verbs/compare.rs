@@ -56,7 +56,12 @@ fn print(r: &Report) {
     println!("rel_mse   {:.6e}", r.rel_mse);
     println!("rel_rmse  {:.6e}", r.rel_rmse);
     println!("mae       {:.6e}", r.mae);
-    println!("mean      {:.6e} (a), {:.6e} (b), ratio {:.6}", r.mean_a, r.mean_b, r.mean_a / r.mean_b);
+    println!(
+        "mean      {:.6e} (a), {:.6e} (b), ratio {:.6}",
+        r.mean_a,
+        r.mean_b,
+        r.mean_a / r.mean_b
+    );
     if r.not_finite > 0 {
         println!("not finite: {} values", r.not_finite);
     }

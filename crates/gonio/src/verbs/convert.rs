@@ -15,7 +15,11 @@ pub(crate) fn run(context: &Context, args: &Convert) -> Result<()> {
         interpolation: args.interpolation.unwrap_or(InterpolationName::Auto),
         ..MaterialOptions::default()
     };
-    report(context, &args.output, &convert(&input, &args.output, &options)?)
+    report(
+        context,
+        &args.output,
+        &convert(&input, &args.output, &options)?,
+    )
 }
 
 /// What was written, and what of the input it cannot say.
@@ -31,6 +35,9 @@ pub(super) fn report(context: &Context, output: &Path, done: &Conversion) -> Res
         for line in &done.lost {
             println!("  lost: {line}");
         }
-        println!("  relative RMS difference when read back: {:.2e}", done.round_trip_error);
+        println!(
+            "  relative RMS difference when read back: {:.2e}",
+            done.round_trip_error
+        );
     })
 }

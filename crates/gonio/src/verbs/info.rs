@@ -53,7 +53,9 @@ fn describe(loaded: &LoadedMeasured) -> Result<Report> {
         primaries: space.as_ref().map(|s| s.primaries),
         primaries_name: space.as_ref().map(|s| s.name.clone()),
         white: space.as_ref().map(|s| s.white),
-        scale: content.scale.unwrap_or_else(|| vec![1.0 / space.as_ref().map_or(1.0, level); basis.len()]),
+        scale: content
+            .scale
+            .unwrap_or_else(|| vec![1.0 / space.as_ref().map_or(1.0, level); basis.len()]),
         valid_fraction: content.valid_fraction,
         negatives: content.negatives,
         bytes: loaded.bytes,
@@ -84,7 +86,10 @@ fn content(loaded: &LoadedMeasured) -> Result<Content> {
             scale: Some(MERL_SCALE.to_vec()),
             valid_fraction: cells.measured as f64 / cells.cells.max(1) as f64,
             negatives: vec![negative],
-            header: vec![("not measured".into(), format!("{} cells", cells.cells - cells.measured))],
+            header: vec![(
+                "not measured".into(),
+                format!("{} cells", cells.cells - cells.measured),
+            )],
         });
     }
     let bytes = scene_io::load::bytes(&loaded.path, scene_io::load::MAX_FILE_BYTES)?;
@@ -99,20 +104,42 @@ fn content(loaded: &LoadedMeasured) -> Result<Content> {
     };
     let (dims, negatives, header) = match brdf_formats::read(bytes)? {
         File::Astm(f) => {
-            let (dims, negatives) = rows(f.row_count(), f.value_columns().len(), &mut (0..f.row_count()).map(|r| f.values(r)));
+            let (dims, negatives) = rows(
+                f.row_count(),
+                f.value_columns().len(),
+                &mut (0..f.row_count()).map(|r| f.values(r)),
+            );
             (dims, negatives, f.fields().collect())
         }
         File::PbrtText(f) => {
-            let (dims, negatives) = rows(f.row_count(), f.wavelengths_nm().len(), &mut (0..f.row_count()).map(|r| f.values(r)));
-            (dims, negatives, f.comments().map(|c| ("comment".to_owned(), c)).collect())
+            let (dims, negatives) = rows(
+                f.row_count(),
+                f.wavelengths_nm().len(),
+                &mut (0..f.row_count()).map(|r| f.values(r)),
+            );
+            (
+                dims,
+                negatives,
+                f.comments().map(|c| ("comment".to_owned(), c)).collect(),
+            )
         }
         File::Rgl(f) => {
             let view = f.view()?;
-            (view.values.shape.clone(), vec![view.values.data.iter().filter(|v| **v < 0.0).count()], vec![("description".into(), view.description)])
+            (
+                view.values.shape.clone(),
+                vec![view.values.data.iter().filter(|v| **v < 0.0).count()],
+                vec![("description".into(), view.description)],
+            )
         }
         _ => (Vec::new(), Vec::new(), Vec::new()),
     };
-    Ok(Content { dims, scale: None, valid_fraction: 1.0, negatives, header })
+    Ok(Content {
+        dims,
+        scale: None,
+        valid_fraction: 1.0,
+        negatives,
+        header,
+    })
 }
 
 fn print(r: &Report) {
@@ -122,16 +149,41 @@ fn print(r: &Report) {
     match &r.channels {
         Channels::Channels(names) => println!("  channels   {}", names.join(", ")),
         Channels::WavelengthsNm(nm) => {
-            println!("  channels   {} bands, {} to {} nm", nm.len(), nm.first().unwrap_or(&0.0), nm.last().unwrap_or(&0.0));
+            println!(
+                "  channels   {} bands, {} to {} nm",
+                nm.len(),
+                nm.first().unwrap_or(&0.0),
+                nm.last().unwrap_or(&0.0)
+            );
         }
     }
     if let (Some(name), Some(p), Some(w)) = (&r.primaries_name, &r.primaries, &r.white) {
-        println!("  primaries  {name}: R {:?} G {:?} B {:?}, white {w:?}", p[0], p[1], p[2]);
+        println!(
+            "  primaries  {name}: R {:?} G {:?} B {:?}, white {w:?}",
+            p[0], p[1], p[2]
+        );
     }
-    println!("  scale      {}", r.scale.iter().map(|s| format!("{s:.6}")).collect::<Vec<_>>().join(", "));
-    println!("  valid      {:.2} % of the entries", 100.0 * r.valid_fraction);
+    println!(
+        "  scale      {}",
+        r.scale
+            .iter()
+            .map(|s| format!("{s:.6}"))
+            .collect::<Vec<_>>()
+            .join(", ")
+    );
+    println!(
+        "  valid      {:.2} % of the entries",
+        100.0 * r.valid_fraction
+    );
     println!("  negatives  {:?}", r.negatives);
-    println!("  reciprocal {}", if r.reciprocal { "by its layout" } else { "not guaranteed: rendered as measured" });
+    println!(
+        "  reciprocal {}",
+        if r.reciprocal {
+            "by its layout"
+        } else {
+            "not guaranteed: rendered as measured"
+        }
+    );
     for (key, value) in &r.header {
         println!("  {key}: {value}");
     }

@@ -13,7 +13,10 @@ pub(crate) fn run(context: &Context, args: &Measure) -> Result<()> {
         list();
         return Ok(());
     }
-    let output = args.output.as_ref().context("expected an output: -o OUT.binary or -o OUT.astm")?;
+    let output = args
+        .output
+        .as_ref()
+        .context("expected an output: -o OUT.binary or -o OUT.astm")?;
     let model = parse_model(&args.model)?;
     let instrument = Instrument {
         noise: args.noise,
@@ -29,9 +32,15 @@ pub(crate) fn run(context: &Context, args: &Measure) -> Result<()> {
         Some("astm") => {
             let basis = Basis::Rgb(RgbSpace::trinitron());
             let file = measure_astm(brdf, &basis, &model.to_string(), &instrument, args.seed)?;
-            (format!("Cornell, {} rows", file.row_count()), file.to_bytes())
+            (
+                format!("Cornell, {} rows", file.row_count()),
+                file.to_bytes(),
+            )
         }
-        _ => bail!("{}: expected an output ending in .binary (MERL grid) or .astm (Cornell grid)", output.display()),
+        _ => bail!(
+            "{}: expected an output ending in .binary (MERL grid) or .astm (Cornell grid)",
+            output.display()
+        ),
     };
     scene_io::write::bytes(output, &bytes)?;
     let report = json!({
@@ -40,7 +49,9 @@ pub(crate) fn run(context: &Context, args: &Measure) -> Result<()> {
         "parameters": model.values.to_string(),
         "grid": grid,
     });
-    context.report(&report, || println!("measured {model}\nwrote {} ({grid})", output.display()))
+    context.report(&report, || {
+        println!("measured {model}\nwrote {} ({grid})", output.display())
+    })
 }
 
 /// The models and their parameters.
@@ -53,12 +64,27 @@ fn list() {
                 DefaultValue::SameAs(other) => format!("default: {other}"),
                 DefaultValue::Absent => "optional".into(),
             };
-            let colour = if p.per_channel { ", one value or R/G/B" } else { "" };
-            println!("    {:<12} {} [{} to {}{}], {default}{colour}", p.name, p.title, p.range.0, p.range.1, unit(p.unit));
+            let colour = if p.per_channel {
+                ", one value or R/G/B"
+            } else {
+                ""
+            };
+            println!(
+                "    {:<12} {} [{} to {}{}], {default}{colour}",
+                p.name,
+                p.title,
+                p.range.0,
+                p.range.1,
+                unit(p.unit)
+            );
         }
     }
 }
 
 fn unit(unit: &str) -> String {
-    if unit.is_empty() { String::new() } else { format!(" {unit}") }
+    if unit.is_empty() {
+        String::new()
+    } else {
+        format!(" {unit}")
+    }
 }

@@ -26,7 +26,9 @@ pub(crate) fn run(context: &Context, args: &Plot) -> Result<()> {
         PlotKind::Slice => slice(&materials, args.log)?.svg((760, 640))?,
     };
     load::write_picture(&args.output, &svg)?;
-    context.report(&json!({ "written": [args.output] }), || println!("wrote {}", args.output.display()))
+    context.report(&json!({ "written": [args.output] }), || {
+        println!("wrote {}", args.output.display())
+    })
 }
 
 fn polar(materials: &[Named], args: &Plot) -> PolarPlot {
@@ -34,11 +36,23 @@ fn polar(materials: &[Named], args: &Plot) -> PolarPlot {
     let mut incident = Vec::new();
     for (k, theta_deg) in args.theta_i.iter().enumerate() {
         let theta = theta_deg.to_radians();
-        incident.push((-theta, if args.theta_i.len() == 1 { [0, 0, 0] } else { plot::palette(k) }));
+        incident.push((
+            -theta,
+            if args.theta_i.len() == 1 {
+                [0, 0, 0]
+            } else {
+                plot::palette(k)
+            },
+        ));
         for (n, (name, material)) in materials.iter().enumerate() {
             let several = args.theta_i.len() > 1;
             let mut lobes = if materials.len() > 1 {
-                vec![curves::luminance_lobe(material.as_ref(), name, theta, plot::palette(n))]
+                vec![curves::luminance_lobe(
+                    material.as_ref(),
+                    name,
+                    theta,
+                    plot::palette(n),
+                )]
             } else {
                 curves::lobes(material.as_ref(), "", theta)
             };
@@ -51,9 +65,17 @@ fn polar(materials: &[Named], args: &Plot) -> PolarPlot {
     let names: Vec<&str> = materials.iter().map(|m| m.0.as_str()).collect();
     let angles: Vec<String> = args.theta_i.iter().map(f64::to_string).collect();
     PolarPlot {
-        title: format!("{}, light at {} degrees", names.join(", "), angles.join(", ")),
+        title: format!(
+            "{}, light at {} degrees",
+            names.join(", "),
+            angles.join(", ")
+        ),
         radius_label: "f_r (1/sr)".into(),
-        radius: if args.log { Radius::Log { decades: DECADES } } else { Radius::Linear },
+        radius: if args.log {
+            Radius::Log { decades: DECADES }
+        } else {
+            Radius::Linear
+        },
         curves: drawn,
         incident,
     }
@@ -63,7 +85,11 @@ fn polar(materials: &[Named], args: &Plot) -> PolarPlot {
 fn distinguish(curve: &mut Curve, angle: Option<(usize, f64)>) {
     if let Some((k, theta_deg)) = angle {
         curve.label = format!("{} {theta_deg}°", curve.label.trim());
-        curve.stroke = if k % 2 == 1 { Stroke::Dashed } else { Stroke::Solid };
+        curve.stroke = if k % 2 == 1 {
+            Stroke::Dashed
+        } else {
+            Stroke::Solid
+        };
     }
 }
 
@@ -73,14 +99,23 @@ fn albedo(materials: &[Named], log: bool) -> Chart {
     for (n, (name, material)) in materials.iter().enumerate() {
         let mut of_material = curves::albedo(material.as_ref(), if single { "" } else { name });
         if !single {
-            of_material.iter_mut().for_each(|c| c.color = plot::palette(n));
+            of_material
+                .iter_mut()
+                .for_each(|c| c.color = plot::palette(n));
         }
         drawn.extend(of_material);
     }
     Chart {
         title: "Directional albedo".into(),
-        x: Axis { range: Some((0.0, 90.0)), ..Axis::linear("theta_o (degrees)") },
-        y: if log { Axis::log("albedo") } else { Axis::linear("albedo") },
+        x: Axis {
+            range: Some((0.0, 90.0)),
+            ..Axis::linear("theta_o (degrees)")
+        },
+        y: if log {
+            Axis::log("albedo")
+        } else {
+            Axis::linear("albedo")
+        },
         curves: drawn,
     }
 }

@@ -22,7 +22,11 @@ const REPLICATES: u32 = 8;
 pub(crate) fn run(context: &Context, args: &Render) -> Result<()> {
     let file = match &args.scene {
         Some(path) => SceneFile::load(path)?,
-        None => SceneFile::from_text(DEFAULT_SCENE, Path::new("the embedded default scene"), Path::new(""))?,
+        None => SceneFile::from_text(
+            DEFAULT_SCENE,
+            Path::new("the embedded default scene"),
+            Path::new(""),
+        )?,
     };
     let start = Instant::now();
     let mut built = build_scene(file, &overrides(args), &context.places)?;
@@ -41,7 +45,10 @@ pub(crate) fn run(context: &Context, args: &Render) -> Result<()> {
 
 fn overrides(args: &Render) -> Overrides {
     Overrides {
-        material: args.material.as_ref().map(|m| MaterialSpec::from_argument(&m.to_string_lossy())),
+        material: args
+            .material
+            .as_ref()
+            .map(|m| MaterialSpec::from_argument(&m.to_string_lossy())),
         interpolation: args.interpolation,
         sampler: args.sampler,
         spp: args.spp,
@@ -63,7 +70,10 @@ struct Traced {
 fn trace(built: &BuiltScene, context: &Context) -> Result<Traced> {
     let (width, height) = built.size;
     let mut film = Film::new(width, height, REPLICATES.min(built.settings.spp.max(1)));
-    let watch = Watch::new(u64::from(width) * u64::from(height) * u64::from(built.settings.spp), context.json)?;
+    let watch = Watch::new(
+        u64::from(width) * u64::from(height) * u64::from(built.settings.spp),
+        context.json,
+    )?;
     let (start, cpu) = (Instant::now(), progress::cpu_seconds());
     let stats = tracer::render(&built.scene, &built.settings, &mut film, &watch)?;
     watch.finish();

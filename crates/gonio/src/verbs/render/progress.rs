@@ -23,11 +23,24 @@ impl Watch {
     pub(super) fn new(total: u64, quiet: bool) -> Result<Self> {
         let stop = Arc::new(AtomicBool::new(false));
         let flag = Arc::clone(&stop);
-        ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed)).context("cannot watch for Ctrl-C")?;
+        ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed))
+            .context("cannot watch for Ctrl-C")?;
         let terminal = std::io::stderr().is_terminal();
-        let bar = if terminal { ProgressBar::new(total) } else { ProgressBar::hidden() };
-        bar.set_style(ProgressStyle::with_template("rendering {wide_bar} {percent} %, {eta} left")?);
-        Ok(Self { bar, total: total.max(1), done: AtomicU64::new(0), plain: !terminal && !quiet, stop })
+        let bar = if terminal {
+            ProgressBar::new(total)
+        } else {
+            ProgressBar::hidden()
+        };
+        bar.set_style(ProgressStyle::with_template(
+            "rendering {wide_bar} {percent} %, {eta} left",
+        )?);
+        Ok(Self {
+            bar,
+            total: total.max(1),
+            done: AtomicU64::new(0),
+            plain: !terminal && !quiet,
+            stop,
+        })
     }
 
     pub(super) fn finish(&self) {

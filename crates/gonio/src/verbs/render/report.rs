@@ -27,7 +27,12 @@ pub(super) struct Report {
 }
 
 impl Report {
-    pub(super) fn new(built: &BuiltScene, traced: &Traced, args: &Render, build_seconds: f64) -> Self {
+    pub(super) fn new(
+        built: &BuiltScene,
+        traced: &Traced,
+        args: &Render,
+        build_seconds: f64,
+    ) -> Self {
         let estimate = traced.film.estimate(CONFIDENCE);
         let known = estimate.rel_rmse.is_finite();
         let main = built.materials.first();
@@ -84,9 +89,16 @@ impl Report {
 pub(super) fn explain(built: &BuiltScene, build_seconds: f64) {
     eprintln!("built in {build_seconds:.3} s:");
     for material in &built.materials {
-        let file = material.file.as_ref().map(|f| format!(" from {}", f.display())).unwrap_or_default();
+        let file = material
+            .file
+            .as_ref()
+            .map(|f| format!(" from {}", f.display()))
+            .unwrap_or_default();
         let s = &material.sampler;
-        eprintln!("  material {}{file}: sampler {}, {} bytes, {:.3} s", material.name, s.name, s.bytes, s.build_seconds);
+        eprintln!(
+            "  material {}{file}: sampler {}, {} bytes, {:.3} s",
+            material.name, s.name, s.bytes, s.build_seconds
+        );
         for note in &s.notes {
             eprintln!("    {note}");
         }
