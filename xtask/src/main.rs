@@ -11,6 +11,8 @@
 )]
 
 mod check;
+mod fixtures;
+mod interpolation;
 mod process;
 mod render_all;
 mod repo;
@@ -24,6 +26,8 @@ const HELP: &str = "\
 cargo xtask               the pre-push check: fmt, clippy, tests, doc tests, tidy
 cargo xtask test          the tests; --slow: the slow statistics and golden renders instead
 cargo xtask tidy          the repository's own rules
+cargo xtask fixtures      make data-fixtures/ again; --check: compare only
+cargo xtask interpolation cross-validate the interpolants on Cornell files
 cargo xtask render-all    all scenes their data allow, with a contact sheet; see --help
 ";
 
@@ -44,6 +48,8 @@ fn run(args: &[String]) -> Result<()> {
         None => check::run(),
         Some("test") => test::run(rest),
         Some("tidy") => tidy::run(),
+        Some("fixtures") => fixtures::run(rest),
+        Some("interpolation") => interpolation::run(rest),
         Some("render-all") => render_all::run(rest),
         Some("help" | "--help" | "-h") => {
             print!("{HELP}");
