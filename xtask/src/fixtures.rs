@@ -22,7 +22,10 @@ pub(crate) fn run(args: &[String]) -> Result<()> {
         if check {
             let found = std::fs::read(&path).with_context(|| repo::shown(&path))?;
             if found != content {
-                bail!("{}: differs from what `cargo xtask fixtures` makes", repo::shown(&path));
+                bail!(
+                    "{}: differs from what `cargo xtask fixtures` makes",
+                    repo::shown(&path)
+                );
             }
         } else {
             std::fs::create_dir_all(path.parent().context("no folder")?)?;
@@ -35,9 +38,15 @@ pub(crate) fn run(args: &[String]) -> Result<()> {
 
 fn fixtures() -> Result<Vec<Fixture>> {
     let perfect = Instrument::default();
-    let noisy = Instrument { noise: 0.05, bracketing: Some(Bracketing::MERL), blind_spot_deg: Instrument::CORNELL_BLIND_SPOT_DEG };
+    let noisy = Instrument {
+        noise: 0.05,
+        bracketing: Some(Bracketing::MERL),
+        blind_spot_deg: Instrument::CORNELL_BLIND_SPOT_DEG,
+    };
     let rgb = Basis::Rgb(RgbSpace::trinitron());
-    let ward = parse_model("ward:alpha=0.2,kd=0.3/0.1/0.05,ks=0.1")?.built.brdf;
+    let ward = parse_model("ward:alpha=0.2,kd=0.3/0.1/0.05,ks=0.1")?
+        .built
+        .brdf;
     let lambert = parse_model("lambert:kd=0.5")?.built.brdf;
     let merl = measure_merl(&*ward, [12, 10, 16], &perfect, 0)?.into_bytes();
     let full = measure_merl(&*ward, [6, 5, 20], &noisy, 1)?.into_bytes();
@@ -45,9 +54,18 @@ fn fixtures() -> Result<Vec<Fixture>> {
     let xyz = measure_astm(&*lambert, &Basis::Xyz, "lambert", &perfect, 0)?.to_bytes();
     let text = String::from_utf8(xyz.clone())?;
     Ok(vec![
-        ("invalid/merl-truncated.binary", merl[..merl.len() - 5].to_vec()),
-        ("invalid/astm-degrees.astm", text.replacen("\n0.174533,", "\n10.000000,", 1).into_bytes()),
-        ("invalid/astm-no-vars.astm", text.replacen("VARS", "VAR", 1).into_bytes()),
+        (
+            "invalid/merl-truncated.binary",
+            merl[..merl.len() - 5].to_vec(),
+        ),
+        (
+            "invalid/astm-degrees.astm",
+            text.replacen("\n0.174533,", "\n10.000000,", 1).into_bytes(),
+        ),
+        (
+            "invalid/astm-no-vars.astm",
+            text.replacen("VARS", "VAR", 1).into_bytes(),
+        ),
         ("valid/ward-12x10x16.binary", merl),
         ("valid/ward-noisy-6x5x20.binary", full),
         ("valid/ward-noisy-rgb.astm", astm),
@@ -66,7 +84,12 @@ mod tests {
     fn folders_are_verdicts() {
         for (name, content) in super::fixtures().unwrap() {
             let read = brdf_formats::read(content);
-            assert_eq!(read.is_ok(), name.starts_with("valid/"), "{name}: {:?}", read.err().map(|e| e.to_string()));
+            assert_eq!(
+                read.is_ok(),
+                name.starts_with("valid/"),
+                "{name}: {:?}",
+                read.err().map(|e| e.to_string())
+            );
         }
     }
 }

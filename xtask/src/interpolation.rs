@@ -3,18 +3,26 @@
 use anyhow::{Context, Result};
 use brdf_formats::AstmFile;
 use brdf_table::SampleCloud;
-use brdf_table::scattered::validation::{SCHEMES, Scheme, Scores, leave_one_ring_out, leave_tenth_out};
+use brdf_table::scattered::validation::{
+    SCHEMES, Scheme, Scores, leave_one_ring_out, leave_tenth_out,
+};
 use std::path::PathBuf;
 
 type Measure = fn(&SampleCloud, Scheme) -> Result<Scores, brdf_table::CloudError>;
 
-const MEASURES: [(&str, Measure); 2] =
-    [("one ring of incidence left out", leave_one_ring_out), ("every tenth row left out", leave_tenth_out)];
+const MEASURES: [(&str, Measure); 2] = [
+    ("one ring of incidence left out", leave_one_ring_out),
+    ("every tenth row left out", leave_tenth_out),
+];
 
 pub(crate) fn run(args: &[String]) -> Result<()> {
     let folder = match args.first() {
         Some(folder) => PathBuf::from(folder),
-        None => PathBuf::from(std::env::var_os("GONIO_DATA").context("usage: cargo xtask interpolation [DIR], or set GONIO_DATA")?).join("cornell"),
+        None => PathBuf::from(
+            std::env::var_os("GONIO_DATA")
+                .context("usage: cargo xtask interpolation [DIR], or set GONIO_DATA")?,
+        )
+        .join("cornell"),
     };
     let mut files: Vec<PathBuf> = std::fs::read_dir(&folder)
         .with_context(|| folder.display().to_string())?
@@ -30,7 +38,10 @@ pub(crate) fn run(args: &[String]) -> Result<()> {
             println!("  {what}: median |log|, near-specular RMS log, RMS log, relative L2");
             for (name, scheme) in SCHEMES {
                 let s = measure(&cloud, scheme)?;
-                println!("    {name:<16} {:.3}  {:.3}  {:.3}  {:.3}", s.median_log, s.specular_rms_log, s.rms_log, s.relative_l2);
+                println!(
+                    "    {name:<16} {:.3}  {:.3}  {:.3}  {:.3}",
+                    s.median_log, s.specular_rms_log, s.rms_log, s.relative_l2
+                );
             }
         }
     }

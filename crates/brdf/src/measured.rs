@@ -86,3 +86,49 @@ impl<T: Measured + ?Sized> Measured for std::sync::Arc<T> {
         (**self).symmetry()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Channel k reads k + 1.
+    struct Ramp(Basis);
+
+    impl Measured for Ramp {
+        fn basis(&self) -> &Basis {
+            &self.0
+        }
+        fn eval_native(&self, _: DVec3, _: DVec3, out: &mut [f64]) -> Status {
+            for (value, n) in out.iter_mut().zip(1_u32..) {
+                *value = f64::from(n);
+            }
+            Status::Measured
+        }
+        fn symmetry(&self) -> Symmetry {
+            Symmetry::FULL
+        }
+    }
+
+    fn bands(n: u32) -> Basis {
+        Basis::Bands((0..n).map(|k| 400.0 + f64::from(k)).collect())
+    }
+
+    #[test]
+    fn projection_is_the_matrix_product_on_stack_and_heap() {
+        for n in [3_u32, 80, 81, 200] {
+            let matrix = (0..n).map(|k| [1.0, f64::from(k % 2)]).collect();
+            let projected = Projected::<_, 2>::new(Ramp(bands(n)), matrix).unwrap();
+            let sum = f64::from(n * (n + 1) / 2);
+            let odd = f64::from((n / 2) * (n / 2 + 1));
+            assert_eq!(projected.eval(DVec3::Z, DVec3::Z), [sum, odd], "{n} bands");
+        }
+    }
+
+    #[test]
+    fn a_matrix_of_another_size_is_refused() {
+        assert!(
+            Projected::<_, 2>::new(Ramp(bands(4)), vec![[0.0; 2]; 3]).is_none(),
+            "3 rows for 4 bands"
+        );
+    }
+}
