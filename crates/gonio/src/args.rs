@@ -46,7 +46,7 @@ pub(crate) struct Render {
     /// Scene in RON; without it the embedded default scene.
     pub(crate) scene: Option<PathBuf>,
     /// Output; a tone-mapped PNG is written beside it.
-    #[arg(short, long, value_name = "OUT.exr", default_value = "gonio.exr")]
+    #[arg(short, long, value_name = "OUT.exr", default_value = "gonio.exr", value_parser = parse_exr)]
     pub(crate) output: PathBuf,
     /// Replaces the scene's main material by any readable file.
     #[arg(long, value_name = "FILE")]
@@ -134,7 +134,7 @@ pub(crate) struct Plot {
     #[arg(required = true)]
     pub(crate) files: Vec<PathBuf>,
     /// Output: .svg or .png.
-    #[arg(short, long, value_name = "OUT")]
+    #[arg(short, long, value_name = "OUT", value_parser = parse_picture)]
     pub(crate) output: PathBuf,
     /// Which picture.
     #[arg(long, value_enum, default_value_t = PlotKind::Polar)]
@@ -229,6 +229,31 @@ impl Render {
             output: PathBuf::from("gonio.exr"),
             ..Self::default()
         }
+    }
+}
+
+fn parse_exr(text: &str) -> Result<PathBuf, String> {
+    with_ending(
+        text,
+        &["exr"],
+        "an output ending in .exr (a PNG is written beside it)",
+    )
+}
+
+fn parse_picture(text: &str) -> Result<PathBuf, String> {
+    with_ending(text, &["svg", "png"], "an output ending in .svg or .png")
+}
+
+fn with_ending(text: &str, endings: &[&str], expected: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let ending = path
+        .extension()
+        .and_then(|e| e.to_str())
+        .unwrap_or_default();
+    if endings.contains(&ending) {
+        Ok(path)
+    } else {
+        Err(format!("expected {expected}, found the ending {ending:?}"))
     }
 }
 

@@ -1,18 +1,21 @@
 //! What the plots show of a material: in-plane lobes, slices and albedo, as numbers.
 
+use crate::load::brdf_scale;
 use brdf::{HalfDiff, Measured, direction};
 use brdf_table::directional_albedo;
 use plot::{Color, Curve, Stroke, palette};
-use spectrum::Basis;
+use spectrum::{Basis, Observer, linear_srgb_from_xyz, srgb_encode};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Steps of an in-plane lobe from -90 to 90 degrees: a quarter degree.
 const LOBE_STEPS: i32 = 720;
 /// Rings of the albedo quadrature: two a theta_h cell of a MERL table.
 const ALBEDO_RINGS: usize = 180;
+/// Most bands of a spectrum that are drawn.
+const BANDS: usize = 5;
 
-/// Evaluates all channels; `None` at and below the horizon.
-fn channels(material: &dyn Measured, theta_i: f64, theta_o: f64) -> Vec<f64> {
+/// All channels as the file has them, in the plane of incidence.
+fn native(material: &dyn Measured, theta_i: f64, theta_o: f64) -> Vec<f64> {
     let mut out = vec![0.0; material.basis().len()];
     // light from the left (phi = 180 degrees), so that the mirror direction is at +theta_i
     let wi = direction(theta_i, PI);
@@ -24,47 +27,67 @@ fn channels(material: &dyn Measured, theta_i: f64, theta_o: f64) -> Vec<f64> {
 /// Which channels to draw, and how: three for colour, up to five bands spread over a spectrum.
 pub(crate) fn shown_channels(basis: &Basis) -> Vec<(usize, String, Color)> {
     let names = basis.names();
-    match basis {
-        Basis::Rgb(_) => [[200, 30, 30], [20, 140, 40], [40, 70, 210]]
-            .into_iter()
-            .enumerate()
-            .map(|(c, k)| (c, names[c].clone(), k))
-            .collect(),
-        _ => {
-            let count = basis.len().min(5);
-            let at = |k: usize| {
-                if count < 2 {
-                    0
-                } else {
-                    k * (basis.len() - 1) / (count - 1)
-                }
+    let count = basis.len().min(BANDS);
+    let at = |k: usize| k * basis.len().saturating_sub(1) / count.saturating_sub(1).max(1);
+    (0..count)
+        .map(|k| {
+            let color = match basis {
+                Basis::Rgb(_) => [[200, 30, 30], [20, 140, 40], [40, 70, 210]][at(k)],
+                Basis::Bands(nm) => wavelength_color(nm[at(k)]),
+                _ => palette(k),
             };
-            (0..count)
-                .map(|k| (at(k), names[at(k)].clone(), palette(k)))
-                .collect()
-        }
+            (at(k), names[at(k)].clone(), color)
+        })
+        .collect()
+}
+
+/// A colour to tell a wavelength by: its hue, dark enough for white paper, darker toward the ends of the spectrum,
+/// where hues hardly change. Grey where nothing is seen.
+fn wavelength_color(nm: f64) -> Color {
+    let seen = linear_srgb_from_xyz(Observer::CIE_1931.at(nm)).map(|v| v.max(0.0));
+    let most = seen.into_iter().fold(0.0, f64::max);
+    if most <= 0.0 {
+        return [90, 90, 90];
     }
+    let toward_ends = ((nm - 550.0).abs() - 60.0).max(0.0);
+    let level = (0.7 - 0.0055 * toward_ends).max(0.08) / most;
+    // saturated greens and yellows are too bright for thin lines
+    let green = 0.55;
+    let linear = [seen[0], green * seen[1], seen[2]];
+    linear.map(|v| (255.0 * srgb_encode((v * level).min(1.0))).round() as u8)
 }
 
 /// One in-plane lobe a channel, for light at `theta_i` radians.
-pub(crate) fn lobes(material: &dyn Measured, label: &str, theta_i: f64) -> Vec<Curve> {
-    let mut curves: Vec<Curve> = shown_channels(material.basis())
-        .into_iter()
-        .map(|(_, name, color)| Curve {
-            label: format!("{label} {name}"),
-            color,
-            stroke: Stroke::Solid,
-            points: Vec::new(),
-        })
-        .collect();
+pub(crate) fn lobes(material: &dyn Measured, theta_i: f64) -> Vec<Curve> {
+    let scale = brdf_scale(material.basis());
+    let rows = lobe_angles().map(|t| (t, native(material, theta_i, t)));
+    by_channel(material, scale, rows)
+}
+
+/// A curve for each shown channel from rows of all channels.
+fn by_channel(
+    material: &dyn Measured,
+    scale: f64,
+    rows: impl Iterator<Item = (f64, Vec<f64>)>,
+) -> Vec<Curve> {
     let shown = shown_channels(material.basis());
-    for theta_o in lobe_angles() {
-        let values = channels(material, theta_i, theta_o);
+    let named = |(_, name, color): &(usize, String, Color)| curve(name, *color, Vec::new());
+    let mut curves: Vec<Curve> = shown.iter().map(named).collect();
+    for (x, values) in rows {
         for (curve, (c, ..)) in curves.iter_mut().zip(&shown) {
-            curve.points.push((theta_o, values[*c]));
+            curve.points.push((x, scale * values[*c]));
         }
     }
     curves
+}
+
+fn curve(label: &str, color: Color, points: Vec<(f64, f64)>) -> Curve {
+    Curve {
+        label: label.into(),
+        color,
+        stroke: Stroke::Solid,
+        points,
+    }
 }
 
 /// The in-plane lobe of the luminance, to overlay several materials.
@@ -76,14 +99,9 @@ pub(crate) fn luminance_lobe(
 ) -> Curve {
     let weights = material.basis().luminance_weights();
     let points = lobe_angles()
-        .map(|t| (t, dot(&channels(material, theta_i, t), &weights)))
+        .map(|t| (t, dot(&native(material, theta_i, t), &weights)))
         .collect();
-    Curve {
-        label: label.into(),
-        color,
-        stroke: Stroke::Solid,
-        points,
-    }
+    curve(label, color, points)
 }
 
 fn lobe_angles() -> impl Iterator<Item = f64> {
@@ -119,24 +137,32 @@ pub(crate) fn slice(material: &dyn Measured, n: usize) -> Vec<f64> {
 }
 
 /// Directional albedo of each shown channel against theta_o in degrees.
-pub(crate) fn albedo(material: &dyn Measured, label: &str) -> Vec<Curve> {
-    let shown = shown_channels(material.basis());
-    let mut curves: Vec<Curve> = shown
-        .iter()
-        .map(|(_, name, color)| Curve {
-            label: format!("{label} {name}"),
-            color: *color,
-            stroke: Stroke::Solid,
-            points: Vec::new(),
-        })
-        .collect();
-    for theta_deg in (0..=88).step_by(2).map(f64::from) {
-        let values = directional_albedo(material, theta_deg.to_radians(), ALBEDO_RINGS);
-        for (curve, (c, ..)) in curves.iter_mut().zip(&shown) {
-            curve.points.push((theta_deg, values[*c]));
-        }
-    }
-    curves
+pub(crate) fn albedo(material: &dyn Measured) -> Vec<Curve> {
+    by_channel(
+        material,
+        brdf_scale(material.basis()),
+        albedo_rows(material),
+    )
+}
+
+/// Directional albedo of the luminance against theta_o in degrees.
+pub(crate) fn luminance_albedo(material: &dyn Measured, label: &str, color: Color) -> Curve {
+    let weights = material.basis().luminance_weights();
+    let rows = albedo_rows(material);
+    curve(
+        label,
+        color,
+        rows.map(|(x, v)| (x, dot(&v, &weights))).collect(),
+    )
+}
+
+fn albedo_rows(material: &dyn Measured) -> impl Iterator<Item = (f64, Vec<f64>)> + '_ {
+    (0..=88).step_by(2).map(f64::from).map(|deg| {
+        (
+            deg,
+            directional_albedo(material, deg.to_radians(), ALBEDO_RINGS),
+        )
+    })
 }
 
 #[cfg(test)]
@@ -166,7 +192,7 @@ mod tests {
 
     #[test]
     fn lobe_peaks_at_the_mirror_direction() {
-        let curves = lobes(&Lobe(Basis::Rgb(RgbSpace::srgb())), "x", 0.6);
+        let curves = lobes(&Lobe(Basis::Rgb(RgbSpace::srgb())), 0.6);
         let peak = curves[0]
             .points
             .iter()
@@ -193,5 +219,23 @@ mod tests {
         ));
         let names: Vec<&str> = shown.iter().map(|s| s.1.as_str()).collect();
         assert_eq!(names, ["400nm", "470nm", "550nm", "620nm", "700nm"]);
+    }
+
+    #[test]
+    fn lobes_are_on_the_scale_of_a_brdf() {
+        let trinitron = RgbSpace::trinitron();
+        let scale = trinitron.white_level;
+        let curves = lobes(&Lobe(Basis::Rgb(trinitron)), 0.6);
+        let blue = curves[2].points[360].1;
+        assert!((blue - 0.5 / PI / scale).abs() < 1e-12, "{blue}");
+    }
+
+    #[test]
+    fn wavelengths_have_their_hues() {
+        let [blue, green, orange, red] = [470.0, 540.0, 600.0, 700.0].map(wavelength_color);
+        assert!(blue[2] > blue[0] && blue[2] > blue[1], "{blue:?}");
+        assert!(green[1] > green[0] && green[1] > green[2], "{green:?}");
+        assert!(orange[0] > orange[1] && orange[1] > orange[2], "{orange:?}");
+        assert!(red[0] > 60 && red[1] == 0 && red[0] < orange[0], "{red:?}");
     }
 }

@@ -1,9 +1,11 @@
 //! From what was typed to a loaded material.
 
+use crate::output::Usage;
 use crate::verbs::Context;
-use anyhow::{Context as _, Result};
+use anyhow::Result;
 use scene_io::material::{LoadedMeasured, MaterialOptions, load_measured};
 use scene_io::scene::InterpolationName;
+use spectrum::Basis;
 use std::path::Path;
 
 /// Loads a measured file, found in the current folder or a data folder.
@@ -28,30 +30,40 @@ pub(crate) fn label(file: &Path) -> String {
     )
 }
 
-/// Writes a picture; the ending decides between SVG and PNG.
+/// Writes a picture; the ending, checked when it was typed, decides between SVG and PNG.
 pub(crate) fn write_picture(output: &Path, svg: &str) -> Result<()> {
-    match output.extension().and_then(|e| e.to_str()) {
-        Some("svg") => scene_io::write::bytes(output, svg.as_bytes())?,
-        Some("png") => scene_io::write::bytes(output, &plot::png(svg, 1.5)?)?,
-        _ => anyhow::bail!(
-            "{}: expected an output ending in .svg or .png",
-            output.display()
-        ),
+    if output.extension().is_some_and(|e| e == "svg") {
+        scene_io::write::bytes(output, svg.as_bytes())?;
+    } else {
+        scene_io::write::bytes(output, &plot::png(svg, 1.5)?)?;
     }
     Ok(())
 }
 
 /// Splits `FILE:WEIGHT` at the last colon.
 pub(crate) fn weighted(part: &str) -> Result<(&Path, f64)> {
-    let (file, weight) = part
-        .rsplit_once(':')
-        .with_context(|| format!("{part}: expected FILE:WEIGHT, found no colon"))?;
-    let weight: f64 = weight
-        .parse()
-        .ok()
-        .filter(|w: &f64| w.is_finite())
-        .with_context(|| {
-            format!("{part}: expected a number after the last colon, found {weight:?}")
-        })?;
-    Ok((Path::new(file), weight))
+    let expected = |what: &str| {
+        Usage(format!(
+            "{part}: expected FILE:WEIGHT with a finite number after the last colon, found {what}"
+        ))
+    };
+    let (file, weight) = part.rsplit_once(':').ok_or_else(|| expected("no colon"))?;
+    match weight.parse::<f64>() {
+        Ok(weight) if weight.is_finite() => Ok((Path::new(file), weight)),
+        _ => Err(expected(&format!("{weight:?}")).into()),
+    }
+}
+
+/// Factor from a file's channels to f_r in 1/sr: RGB files whose white is not at 1 (Cornell's) are brought to BRDF scale.
+pub(crate) fn brdf_scale(basis: &Basis) -> f64 {
+    match basis {
+        Basis::Rgb(space) => space.white_level.recip(),
+        _ => 1.0,
+    }
+}
+
+/// Refuses an output that no format is written to, before any work is done.
+pub(crate) fn check_material_output(output: &Path) -> Result<()> {
+    scene_io::convert::output_format(output).map_err(|e| Usage(e.to_string()))?;
+    Ok(scene_io::write::check(output)?)
 }

@@ -1,37 +1,60 @@
 //! gonio's command line: parse, dispatch to a verb, return an exit code.
 
-#![expect(
-    clippy::print_stdout,
-    clippy::print_stderr,
-    reason = "a program for people at a terminal"
-)]
-
 mod args;
 mod curves;
 mod load;
+mod output;
 mod verbs;
 
 use args::{Cli, Verb};
 use clap::Parser;
+use output::{Usage, say};
 use std::process::ExitCode;
+
+/// Bad input or failed work.
+const FAILED: u8 = 1;
+/// Bad usage.
+const BAD_USAGE: u8 = 2;
 
 fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
-        Err(usage) => {
-            // help and version are not errors; everything else is bad usage, which is 2
-            let code = u8::try_from(usage.exit_code()).unwrap_or(2);
-            let _closed_pipe = usage.print();
-            return ExitCode::from(code);
+        // help and version
+        Err(asked) if !asked.use_stderr() => {
+            return finish(output::print(&asked.render().to_string()));
         }
+        Err(usage) => return finish(Err(Usage(one_line(&usage.render().to_string())).into())),
     };
-    match run(&cli) {
+    finish(run(&cli))
+}
+
+fn finish(result: anyhow::Result<()>) -> ExitCode {
+    match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("gonio: {error:#}");
-            ExitCode::from(1)
+            say(format_args!("gonio: {error:#}"));
+            ExitCode::from(if error.is::<Usage>() {
+                BAD_USAGE
+            } else {
+                FAILED
+            })
         }
     }
+}
+
+/// What the parser has to say, without its repetition of the usage.
+fn one_line(rendered: &str) -> String {
+    let words = rendered
+        .trim_start_matches("error: ")
+        .lines()
+        .map(str::trim);
+    let said =
+        words.take_while(|l| !l.starts_with("Usage:") && !l.starts_with("For more information"));
+    let joined: Vec<&str> = said.filter(|l| !l.is_empty()).collect();
+    format!(
+        "{} (see --help)",
+        joined.join(" ").replace("tip:", "- tip:")
+    )
 }
 
 fn run(cli: &Cli) -> anyhow::Result<()> {
@@ -46,5 +69,19 @@ fn run(cli: &Cli) -> anyhow::Result<()> {
         Some(Verb::Convert(args)) => verbs::convert::run(&context, args),
         Some(Verb::Measure(args)) => verbs::measure::run(&context, args),
         Some(Verb::Compare(args)) => verbs::compare::run(&context, args),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::one_line;
+
+    #[test]
+    fn usage_errors_are_one_line() {
+        let rendered = "error: unexpected argument '--thet' found\n\n  tip: a similar argument exists: '--theta-i'\n\nUsage: gonio eval\n\nFor more information, try '--help'.\n";
+        assert_eq!(
+            one_line(rendered),
+            "unexpected argument '--thet' found - tip: a similar argument exists: '--theta-i' (see --help)"
+        );
     }
 }

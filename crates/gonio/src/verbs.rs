@@ -10,9 +10,11 @@ pub(crate) mod plot;
 pub(crate) mod render;
 
 use crate::args::Cli;
+use crate::output;
 use anyhow::Result;
 use scene_io::{Cache, DataDirs, Places};
 use serde::Serialize;
+use std::fmt;
 use std::path::PathBuf;
 
 /// What every verb needs to know of the command line.
@@ -37,14 +39,20 @@ impl Context {
         }
     }
 
-    /// Prints `value` as JSON, or calls `text`.
-    pub(crate) fn report(&self, value: &impl Serialize, text: impl FnOnce()) -> Result<()> {
+    /// Prints `value` as one line of JSON, or what `text` writes.
+    pub(crate) fn report(
+        &self,
+        value: &impl Serialize,
+        text: impl FnOnce(&mut String) -> fmt::Result,
+    ) -> Result<()> {
+        let mut out = String::new();
         if self.json {
-            println!("{}", serde_json::to_string(value)?);
+            out = serde_json::to_string(value)?;
+            out.push('\n');
         } else {
-            text();
+            text(&mut out)?;
         }
-        Ok(())
+        output::print(&out)
     }
 }
 

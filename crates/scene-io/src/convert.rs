@@ -1,7 +1,7 @@
 //! From one measured file to another format, and linear combinations: what `gonio convert` and `gonio mix` do.
 
 use crate::error::{Error, ErrorKind};
-use crate::material::{LoadedMeasured, MaterialOptions, load_measured};
+use crate::material::{LoadedMeasured, MaterialOptions, load_measured, measured_from_bytes};
 use crate::{load, write};
 use brdf::{Brdf, Measured, Projected, Status};
 use brdf_formats::{AstmFile, Channels, File, PbrtTextFile};
@@ -36,8 +36,8 @@ pub fn convert(
     output: &Path,
     options: &MaterialOptions,
 ) -> Result<Conversion, Error> {
+    let target = output_format(output)?;
     let loaded = load_measured(input, options)?;
-    let target = writable_format(output)?;
     if target == loaded.format.name {
         write::bytes(output, &load::bytes(input, load::MAX_FILE_BYTES)?)?;
         return Ok(Conversion::default());
@@ -48,11 +48,9 @@ pub fn convert(
         "astm" => to_astm(&loaded, &mut lost)?,
         _ => to_pbrt_text(&loaded, &mut lost)?,
     };
+    let again = measured_from_bytes(&bytes, &MaterialOptions::default())?;
+    let round_trip_error = difference(&*loaded.measured, &*again.measured);
     write::bytes(output, &bytes)?;
-    let round_trip_error = difference(
-        &*loaded.measured,
-        &*load_measured(output, options)?.measured,
-    );
     Ok(Conversion {
         lost,
         round_trip_error,
@@ -68,7 +66,7 @@ pub fn mix_files(
     output: &Path,
     options: &MaterialOptions,
 ) -> Result<Conversion, Error> {
-    if writable_format(output)? != "merl" {
+    if output_format(output)? != "merl" {
         return Err(Error::unsupported(
             "expected an output ending in .binary: mixtures are written on the MERL grid",
         )
@@ -101,8 +99,11 @@ pub fn mix_files(
     })
 }
 
-/// The format that the extension of an output stands for, if it can be written.
-fn writable_format(output: &Path) -> Result<&'static str, Error> {
+/// The name of the format that the extension of an output stands for.
+///
+/// # Errors
+/// If nothing that can be written has this extension.
+pub fn output_format(output: &Path) -> Result<&'static str, Error> {
     let extension = output
         .extension()
         .and_then(|e| e.to_str())

@@ -3,6 +3,7 @@
 use crate::error::{Error, ErrorKind, os_message};
 use std::io::{self, BufWriter, Seek, Write};
 use std::path::Path;
+use tempfile::NamedTempFile;
 
 /// What a file may be written through: EXR seeks back to its offset table.
 pub trait WriteSeek: Write + Seek {}
@@ -19,9 +20,29 @@ pub fn atomically(
     path: &Path,
     fill: impl FnOnce(&mut dyn WriteSeek) -> io::Result<()>,
 ) -> Result<(), Error> {
-    let failed = |e: &io::Error| {
-        Error::new(ErrorKind::Write, format!("cannot write: {}", os_message(e))).in_file(path)
-    };
+    let failed = |e: &io::Error| failed(path, e);
+    let mut file = temporary(path)?;
+    {
+        let mut buffered = BufWriter::new(file.as_file_mut());
+        fill(&mut buffered)
+            .and_then(|()| buffered.flush())
+            .map_err(|e| failed(&e))?;
+    }
+    // Without this a crash of the machine could leave the new name with no content.
+    file.as_file().sync_all().map_err(|e| failed(&e))?;
+    file.persist(path).map_err(|e| failed(&e.error))?;
+    Ok(())
+}
+
+/// Whether `path` could be written now; long work asks before it begins. Leaves nothing behind.
+///
+/// # Errors
+/// If `path` is a folder, or its folder does not exist or may not be written.
+pub fn check(path: &Path) -> Result<(), Error> {
+    temporary(path).map(drop)
+}
+
+fn temporary(path: &Path) -> Result<NamedTempFile, Error> {
     if path.file_name().is_none() || path.is_dir() {
         let message = "cannot write: expected a file name, found a folder";
         return Err(Error::new(ErrorKind::Write, message).in_file(path));
@@ -35,17 +56,11 @@ pub fn atomically(
     // Ours to be read by others like any output, unlike the private files tempfile is made for.
     #[cfg(unix)]
     temporary.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = temporary.tempfile_in(folder).map_err(|e| failed(&e))?;
-    {
-        let mut buffered = BufWriter::new(file.as_file_mut());
-        fill(&mut buffered)
-            .and_then(|()| buffered.flush())
-            .map_err(|e| failed(&e))?;
-    }
-    // Without this a crash of the machine could leave the new name with no content.
-    file.as_file().sync_all().map_err(|e| failed(&e))?;
-    file.persist(path).map_err(|e| failed(&e.error))?;
-    Ok(())
+    temporary.tempfile_in(folder).map_err(|e| failed(path, &e))
+}
+
+fn failed(path: &Path, e: &io::Error) -> Error {
+    Error::new(ErrorKind::Write, format!("cannot write: {}", os_message(e))).in_file(path)
 }
 
 /// Writes `content` to `path` atomically.

@@ -2,9 +2,10 @@
 
 use super::Context;
 use crate::args::Compare;
-use anyhow::Result;
+use anyhow::{Context as _, Result};
 use scene_io::image::read_exr;
 use serde::Serialize;
+use std::fmt::{self, Write};
 
 #[derive(Serialize)]
 struct Report {
@@ -30,7 +31,8 @@ struct Z {
 }
 
 pub(crate) fn run(context: &Context, args: &Compare) -> Result<()> {
-    let m = scene_io::compare(&read_exr(&args.a)?, &read_exr(&args.b)?)?;
+    let m = scene_io::compare(&read_exr(&args.a)?, &read_exr(&args.b)?)
+        .with_context(|| format!("{} and {}", args.a.display(), args.b.display()))?;
     let report = Report {
         rmse: m.rmse,
         rel_mse: m.rel_mse,
@@ -48,25 +50,27 @@ pub(crate) fn run(context: &Context, args: &Compare) -> Result<()> {
             of_means: z.of_means,
         }),
     };
-    context.report(&report, || print(&report))
+    context.report(&report, |out| print(&report, out))
 }
 
-fn print(r: &Report) {
-    println!("rmse      {:.6e}", r.rmse);
-    println!("rel_mse   {:.6e}", r.rel_mse);
-    println!("rel_rmse  {:.6e}", r.rel_rmse);
-    println!("mae       {:.6e}", r.mae);
-    println!(
+fn print(r: &Report, out: &mut String) -> fmt::Result {
+    writeln!(out, "rmse      {:.6e}", r.rmse)?;
+    writeln!(out, "rel_mse   {:.6e}", r.rel_mse)?;
+    writeln!(out, "rel_rmse  {:.6e}", r.rel_rmse)?;
+    writeln!(out, "mae       {:.6e}", r.mae)?;
+    writeln!(
+        out,
         "mean      {:.6e} (a), {:.6e} (b), ratio {:.6}",
         r.mean_a,
         r.mean_b,
         r.mean_a / r.mean_b
-    );
+    )?;
     if r.not_finite > 0 {
-        println!("not finite: {} values", r.not_finite);
+        writeln!(out, "not finite: {} values", r.not_finite)?;
     }
     match &r.z {
-        Some(z) => println!(
+        Some(z) => writeln!(
+            out,
             "z         of means {:.2}; per pixel: mean {:.3}, mean square {:.3}, |z| > 3 in {:.2} %, largest {:.1}",
             z.of_means,
             z.mean,
@@ -74,6 +78,6 @@ fn print(r: &Report) {
             100.0 * z.share_above_3,
             z.max_abs
         ),
-        None => println!("z         needs variances in both images"),
+        None => writeln!(out, "z         needs variances in both images"),
     }
 }

@@ -2,14 +2,17 @@
 
 use super::Context;
 use crate::args::Convert;
+use crate::load;
 use anyhow::Result;
 use scene_io::convert::{Conversion, convert};
 use scene_io::material::MaterialOptions;
 use scene_io::scene::InterpolationName;
 use serde_json::json;
+use std::fmt::Write;
 use std::path::Path;
 
 pub(crate) fn run(context: &Context, args: &Convert) -> Result<()> {
+    load::check_material_output(&args.output)?;
     let input = context.places.data.find(&args.input, Path::new(""))?;
     let options = MaterialOptions {
         interpolation: args.interpolation.unwrap_or(InterpolationName::Auto),
@@ -30,14 +33,12 @@ pub(super) fn report(context: &Context, output: &Path, done: &Conversion) -> Res
         "round_trip_error": done.round_trip_error,
         "changes": done.lost,
     });
-    context.report(&value, || {
-        println!("wrote {}", output.display());
+    context.report(&value, |out| {
+        writeln!(out, "wrote {}", output.display())?;
         for line in &done.lost {
-            println!("  lost: {line}");
+            writeln!(out, "  lost: {line}")?;
         }
-        println!(
-            "  relative RMS difference when read back: {:.2e}",
-            done.round_trip_error
-        );
+        let error = done.round_trip_error;
+        writeln!(out, "  relative RMS difference when read back: {error:.2e}")
     })
 }

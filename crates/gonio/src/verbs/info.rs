@@ -8,7 +8,8 @@ use anyhow::Result;
 use brdf_formats::{File, MERL_SCALE};
 use scene_io::material::{Detail, LoadedMeasured};
 use serde::Serialize;
-use spectrum::{Basis, RgbSpace};
+use spectrum::Basis;
+use std::fmt::{self, Write};
 
 #[derive(Serialize)]
 struct Report {
@@ -28,13 +29,15 @@ struct Report {
     bytes: u64,
     header: Vec<(String, String)>,
     reciprocal: bool,
+    /// Names for `--interpolation`, the default first.
+    interpolations: &'static [&'static str],
     docs: &'static str,
 }
 
 pub(crate) fn run(context: &Context, args: &Info) -> Result<()> {
     let loaded = load::measured(context, &args.file, None)?;
     let report = describe(&loaded)?;
-    context.report(&report, || print(&report))
+    context.report(&report, |out| print(&report, out))
 }
 
 fn describe(loaded: &LoadedMeasured) -> Result<Report> {
@@ -55,18 +58,26 @@ fn describe(loaded: &LoadedMeasured) -> Result<Report> {
         white: space.as_ref().map(|s| s.white),
         scale: content
             .scale
-            .unwrap_or_else(|| vec![1.0 / space.as_ref().map_or(1.0, level); basis.len()]),
+            .unwrap_or_else(|| vec![load::brdf_scale(basis); basis.len()]),
         valid_fraction: content.valid_fraction,
         negatives: content.negatives,
         bytes: loaded.bytes,
         header: content.header,
         reciprocal: loaded.measured.symmetry().reciprocal,
+        interpolations: interpolations(loaded),
         docs: loaded.format.docs,
     })
 }
 
-fn level(space: &RgbSpace) -> f64 {
-    space.white_level
+/// What `--interpolation` may say for such a file, the default first.
+fn interpolations(loaded: &LoadedMeasured) -> &'static [&'static str] {
+    match loaded.detail {
+        Detail::Grid { .. } => &["linear", "nearest"],
+        Detail::Scattered { .. } | Detail::Rows { .. } => {
+            &["thin-plate", "linear", "nearest", "squared-lambda"]
+        }
+        _ => &["linear"],
+    }
 }
 
 /// What only the file itself can tell.
@@ -142,49 +153,56 @@ fn content(loaded: &LoadedMeasured) -> Result<Content> {
     })
 }
 
-fn print(r: &Report) {
-    println!("{}", r.file);
-    println!("  format     {} ({})", r.title, r.docs);
-    println!("  size       {} bytes, dims {:?}", r.bytes, r.dims);
+fn print(r: &Report, out: &mut String) -> fmt::Result {
+    writeln!(out, "{}", r.file)?;
+    writeln!(out, "  format     {} ({})", r.title, r.docs)?;
+    writeln!(out, "  size       {} bytes, dims {:?}", r.bytes, r.dims)?;
     match &r.channels {
-        Channels::Channels(names) => println!("  channels   {}", names.join(", ")),
+        Channels::Channels(names) => writeln!(out, "  channels   {}", names.join(", "))?,
         Channels::WavelengthsNm(nm) => {
-            println!(
+            writeln!(
+                out,
                 "  channels   {} bands, {} to {} nm",
                 nm.len(),
                 nm.first().unwrap_or(&0.0),
                 nm.last().unwrap_or(&0.0)
-            );
+            )?;
         }
     }
     if let (Some(name), Some(p), Some(w)) = (&r.primaries_name, &r.primaries, &r.white) {
-        println!(
+        writeln!(
+            out,
             "  primaries  {name}: R {:?} G {:?} B {:?}, white {w:?}",
             p[0], p[1], p[2]
-        );
+        )?;
     }
-    println!(
+    writeln!(
+        out,
         "  scale      {}",
         r.scale
             .iter()
             .map(|s| format!("{s:.6}"))
             .collect::<Vec<_>>()
             .join(", ")
-    );
-    println!(
+    )?;
+    writeln!(
+        out,
         "  valid      {:.2} % of the entries",
         100.0 * r.valid_fraction
-    );
-    println!("  negatives  {:?}", r.negatives);
-    println!(
+    )?;
+    writeln!(out, "  negatives  {:?}", r.negatives)?;
+    writeln!(
+        out,
         "  reciprocal {}",
         if r.reciprocal {
             "by its layout"
         } else {
             "not guaranteed: rendered as measured"
         }
-    );
+    )?;
+    writeln!(out, "  between    {}", r.interpolations.join(", "))?;
     for (key, value) in &r.header {
-        println!("  {key}: {value}");
+        writeln!(out, "  {key}: {value}")?;
     }
+    Ok(())
 }

@@ -9,6 +9,7 @@ use scene_io::material::MaterialOptions;
 use std::path::{Path, PathBuf};
 
 pub(crate) fn run(context: &Context, args: &Mix) -> Result<()> {
+    load::check_material_output(&args.output)?;
     let mut parts: Vec<(PathBuf, f64)> = Vec::new();
     for part in &args.parts {
         let (file, weight) = load::weighted(part)?;

@@ -2,11 +2,13 @@
 
 use super::Context;
 use crate::args::{Plot, PlotKind};
+use crate::output::Usage;
 use crate::{curves, load};
-use anyhow::{Result, bail};
+use anyhow::Result;
 use brdf::Measured;
 use plot::{Axis, Chart, Curve, HeatMap, PolarPlot, Radius, Scale, Stroke};
 use serde_json::json;
+use std::fmt::Write;
 use std::sync::Arc;
 
 /// Powers of ten shown by a logarithmic polar plot.
@@ -15,6 +17,11 @@ const DECADES: f64 = 4.0;
 type Named = (String, Arc<dyn Measured>);
 
 pub(crate) fn run(context: &Context, args: &Plot) -> Result<()> {
+    scene_io::write::check(&args.output)?;
+    if args.kind == PlotKind::Slice && args.files.len() > 1 {
+        let found = args.files.len();
+        return Err(Usage(format!("expected one file for a slice, found {found}")).into());
+    }
     let mut materials: Vec<Named> = Vec::new();
     for file in &args.files {
         let loaded = load::measured(context, file, args.interpolation)?;
@@ -23,11 +30,11 @@ pub(crate) fn run(context: &Context, args: &Plot) -> Result<()> {
     let svg = match args.kind {
         PlotKind::Polar => polar(&materials, args).svg(900)?,
         PlotKind::Albedo => albedo(&materials, args.log).svg((900, 560))?,
-        PlotKind::Slice => slice(&materials, args.log)?.svg((760, 640))?,
+        PlotKind::Slice => slice(&materials[0], args.log).svg((760, 640))?,
     };
     load::write_picture(&args.output, &svg)?;
-    context.report(&json!({ "written": [args.output] }), || {
-        println!("wrote {}", args.output.display())
+    context.report(&json!({ "written": [args.output] }), |out| {
+        writeln!(out, "wrote {}", args.output.display())
     })
 }
 
@@ -54,7 +61,7 @@ fn polar(materials: &[Named], args: &Plot) -> PolarPlot {
                     plot::palette(n),
                 )]
             } else {
-                curves::lobes(material.as_ref(), "", theta)
+                curves::lobes(material.as_ref(), theta)
             };
             for curve in &mut lobes {
                 distinguish(curve, several.then_some((k, *theta_deg)));
@@ -85,28 +92,28 @@ fn polar(materials: &[Named], args: &Plot) -> PolarPlot {
 fn distinguish(curve: &mut Curve, angle: Option<(usize, f64)>) {
     if let Some((k, theta_deg)) = angle {
         curve.label = format!("{} {theta_deg}°", curve.label.trim());
-        curve.stroke = if k % 2 == 1 {
-            Stroke::Dashed
-        } else {
-            Stroke::Solid
-        };
+        curve.stroke = [Stroke::Solid, Stroke::Dashed, Stroke::Dots][k % 3];
     }
 }
 
+/// One curve a channel for one material, the luminance of each for several.
 fn albedo(materials: &[Named], log: bool) -> Chart {
-    let single = materials.len() == 1;
-    let mut drawn = Vec::new();
-    for (n, (name, material)) in materials.iter().enumerate() {
-        let mut of_material = curves::albedo(material.as_ref(), if single { "" } else { name });
-        if !single {
-            of_material
-                .iter_mut()
-                .for_each(|c| c.color = plot::palette(n));
-        }
-        drawn.extend(of_material);
-    }
+    let drawn = match materials {
+        [(_, material)] => curves::albedo(material.as_ref()),
+        several => several
+            .iter()
+            .enumerate()
+            .map(|(n, (name, m))| curves::luminance_albedo(m.as_ref(), name, plot::palette(n)))
+            .collect(),
+    };
+    let of = if materials.len() > 1 {
+        " (luminance)"
+    } else {
+        ""
+    };
+    let names: Vec<&str> = materials.iter().map(|m| m.0.as_str()).collect();
     Chart {
-        title: "Directional albedo".into(),
+        title: format!("{}: directional albedo{of}", names.join(", ")),
         x: Axis {
             range: Some((0.0, 90.0)),
             ..Axis::linear("theta_o (degrees)")
@@ -120,17 +127,14 @@ fn albedo(materials: &[Named], log: bool) -> Chart {
     }
 }
 
-fn slice(materials: &[Named], log: bool) -> Result<HeatMap> {
-    let [(name, material)] = materials else {
-        bail!("a slice shows one file, found {}", materials.len());
-    };
+fn slice((name, material): &Named, log: bool) -> HeatMap {
     const SIDE: usize = 180;
-    Ok(HeatMap {
+    HeatMap {
         title: format!("{name}: luminance of f_r at phi_d = 90 degrees (1/sr)"),
         x: ("theta_h (degrees)".into(), 0.0, 90.0),
         y: ("theta_d (degrees)".into(), 0.0, 90.0),
         columns: SIDE,
         values: curves::slice(material.as_ref(), SIDE),
         scale: if log { Scale::Log } else { Scale::Linear },
-    })
+    }
 }

@@ -5,6 +5,7 @@ mod report;
 
 use super::Context;
 use crate::args::Render;
+use crate::output::say;
 use anyhow::{Context as _, Result};
 use progress::Watch;
 use report::Report;
@@ -20,6 +21,8 @@ use tracer::Film;
 const REPLICATES: u32 = 8;
 
 pub(crate) fn run(context: &Context, args: &Render) -> Result<()> {
+    // hours of rendering must not end at a folder that does not exist
+    scene_io::write::check(&args.output)?;
     let file = match &args.scene {
         Some(path) => SceneFile::load(path)?,
         None => SceneFile::from_text(
@@ -33,14 +36,14 @@ pub(crate) fn run(context: &Context, args: &Render) -> Result<()> {
     built.settings.threads = args.threads.and_then(|t| NonZeroUsize::new(t.into()));
     let build_seconds = start.elapsed().as_secs_f64();
     for note in &built.notes {
-        eprintln!("note: {note}");
+        say(format_args!("note: {note}"));
     }
     if args.explain && !context.json {
         report::explain(&built, build_seconds);
     }
     let film = trace(&built, context)?;
     let report = write(&built, &film, args, build_seconds)?;
-    context.report(&report, || report.print(args))
+    context.report(&report, |out| report.print(args, out))
 }
 
 fn overrides(args: &Render) -> Overrides {

@@ -40,6 +40,19 @@ pub fn load_measured(path: &Path, options: &MaterialOptions) -> Result<LoadedMea
         .map_err(|e| e.in_file(path))
 }
 
+/// [`load_measured`] from memory; names no path.
+///
+/// # Errors
+/// As [`load_measured`].
+pub(crate) fn measured_from_bytes(
+    bytes: &[u8],
+    options: &MaterialOptions,
+) -> Result<LoadedMeasured, Error> {
+    let (prefix, rest) = bytes.split_at(bytes.len().min(PREFIX));
+    let source = Cursor::new(prefix.to_vec()).chain(rest);
+    from_source(source, bytes.len() as u64, options)
+}
+
 fn from_source(
     source: Chain<Cursor<Vec<u8>>, impl Read>,
     length: u64,

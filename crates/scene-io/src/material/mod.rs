@@ -13,6 +13,7 @@ mod surface;
 
 pub use loaded::{Detail, LoadedMeasured};
 pub use measured_file::load_measured;
+pub(crate) use measured_file::measured_from_bytes;
 pub use options::MaterialOptions;
 pub use pair::SamplerReport;
 pub use surface::Surface;

@@ -1,5 +1,6 @@
 //! What a person sees while a picture is made, and how they stop it.
 
+use crate::output::say;
 use anyhow::{Context as _, Result};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
@@ -23,8 +24,7 @@ impl Watch {
     pub(super) fn new(total: u64, quiet: bool) -> Result<Self> {
         let stop = Arc::new(AtomicBool::new(false));
         let flag = Arc::clone(&stop);
-        ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed))
-            .context("cannot watch for Ctrl-C")?;
+        ctrlc::set_handler(move || interrupt(&flag)).context("cannot watch for Ctrl-C")?;
         let terminal = std::io::stderr().is_terminal();
         let bar = if terminal {
             ProgressBar::new(total)
@@ -62,9 +62,21 @@ impl<const N: usize> Progress<N> for Watch {
         self.bar.inc(paths);
         let tenth = |done: u64| done * 10 / self.total;
         if self.plain && tenth(before + paths) > tenth(before) {
-            eprintln!("rendered {} %", tenth(before + paths) * 10);
+            say(format_args!("rendered {} %", tenth(before + paths) * 10));
         }
     }
+}
+
+/// The first Ctrl-C asks the render to end, the second ends the program: with 130, as shells do for signal 2.
+#[expect(
+    clippy::exit,
+    reason = "whoever interrupts twice does not want to wait"
+)]
+fn interrupt(stop: &AtomicBool) {
+    if stop.swap(true, Ordering::Relaxed) {
+        std::process::exit(130);
+    }
+    say("interrupted: finishing the tiles at hand; once more ends the program at once");
 }
 
 /// Seconds of processor time this process has used, all threads; 0 where the system does not say.

@@ -2,8 +2,10 @@
 
 use super::Traced;
 use crate::args::Render;
+use crate::output::say;
 use scene_io::BuiltScene;
 use serde::Serialize;
+use std::fmt::{self, Write};
 use std::path::PathBuf;
 
 /// Confidence of the interval around the error.
@@ -48,46 +50,60 @@ impl Report {
             paths_per_second: traced.stats.paths as f64 / traced.seconds.max(1e-9),
             rel_rmse: known.then_some(estimate.rel_rmse),
             rel_rmse_ci: known.then_some(estimate.rel_rmse_ci),
-            left_out: built.left_out.clone(),
+            left_out: left_out(built),
             interrupted: traced.interrupted,
         }
     }
 
-    pub(super) fn print(&self, args: &Render) {
+    pub(super) fn print(&self, args: &Render, out: &mut String) -> fmt::Result {
         if self.interrupted {
-            println!("interrupted: the picture holds what was rendered until then");
+            writeln!(
+                out,
+                "interrupted: the picture holds what was rendered until then"
+            )?;
         }
-        println!(
+        writeln!(
+            out,
             "{} samples a pixel in {:.2} s ({:.2} s before that to load and build), {:.2} million paths/s",
             self.spp,
             self.seconds,
             self.build_seconds,
             self.paths_per_second / 1e6
-        );
+        )?;
         match (self.rel_rmse, self.rel_rmse_ci) {
-            (Some(error), Some([low, high])) => println!(
+            (Some(error), Some([low, high])) => writeln!(
+                out,
                 "relative RMSE {:.3} %, 95 % interval {:.3} to {:.3} %",
                 100.0 * error,
                 100.0 * low,
                 100.0 * high
             ),
-            _ => println!("relative RMSE unknown: too few samples to estimate it"),
-        }
+            _ => writeln!(out, "relative RMSE unknown: too few samples to estimate it"),
+        }?;
         for path in &self.written {
-            println!("wrote {}", path.display());
+            writeln!(out, "wrote {}", path.display())?;
         }
         if args.scene.is_none() && args.material.is_none() {
-            println!(
+            writeln!(
+                out,
                 "\nThat was the embedded default: two models, measured on the fly by a virtual gonioreflectometer. Now your own file:\n  \
                  gonio info FILE\n  gonio plot FILE --theta-i 45 -o lobes.svg\n  gonio render --material FILE -o mine.exr"
-            );
+            )?;
         }
+        Ok(())
     }
+}
+
+/// What the scene and its files do not use, and what the tracer then does without.
+fn left_out(built: &BuiltScene) -> Vec<String> {
+    let traced = built.scene.left_out(&built.settings);
+    let traced = traced.iter().map(ToString::to_string);
+    built.left_out.iter().cloned().chain(traced).collect()
 }
 
 /// What was built, and what was not.
 pub(super) fn explain(built: &BuiltScene, build_seconds: f64) {
-    eprintln!("built in {build_seconds:.3} s:");
+    say(format_args!("built in {build_seconds:.3} s:"));
     for material in &built.materials {
         let file = material
             .file
@@ -95,16 +111,16 @@ pub(super) fn explain(built: &BuiltScene, build_seconds: f64) {
             .map(|f| format!(" from {}", f.display()))
             .unwrap_or_default();
         let s = &material.sampler;
-        eprintln!(
+        say(format_args!(
             "  material {}{file}: sampler {}, {} bytes, {:.3} s",
             material.name, s.name, s.bytes, s.build_seconds
-        );
+        ));
         for note in &s.notes {
-            eprintln!("    {note}");
+            say(format_args!("    {note}"));
         }
     }
-    eprintln!("left out:");
-    for line in &built.left_out {
-        eprintln!("  {line}");
+    say("left out:");
+    for line in left_out(built) {
+        say(format_args!("  {line}"));
     }
 }
