@@ -93,13 +93,13 @@ pub(crate) struct Eval {
     /// A measured-reflectance file in any known format.
     pub(crate) file: PathBuf,
     /// Polar angle toward the light, degrees.
-    #[arg(long, value_name = "DEG", required_unless_present = "batch", value_parser = parse_theta)]
+    #[arg(long, value_name = "DEG", required_unless_present = "batch", allow_negative_numbers = true, value_parser = parse_theta)]
     pub(crate) theta_i: Option<f64>,
     /// Azimuth toward the light, degrees.
     #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true, value_parser = parse_finite)]
     pub(crate) phi_i: f64,
     /// Polar angle toward the viewer, degrees.
-    #[arg(long, value_name = "DEG", required_unless_present = "batch", value_parser = parse_theta)]
+    #[arg(long, value_name = "DEG", required_unless_present = "batch", allow_negative_numbers = true, value_parser = parse_theta)]
     pub(crate) theta_o: Option<f64>,
     /// Azimuth toward the viewer, degrees.
     #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true, value_parser = parse_finite)]
@@ -194,13 +194,13 @@ pub(crate) struct Measure {
     #[arg(short, long, value_name = "OUT")]
     pub(crate) output: Option<PathBuf>,
     /// Relative noise (standard deviation of the logarithm).
-    #[arg(long, value_name = "SIGMA", default_value_t = 0.0, value_parser = parse_finite)]
+    #[arg(long, value_name = "SIGMA", default_value_t = 0.0, allow_negative_numbers = true, value_parser = parse_not_negative)]
     pub(crate) noise: f64,
     /// Read through a 10-bit camera with bracketed exposures.
     #[arg(long)]
     pub(crate) bracketed: bool,
     /// Detector blind spot around the incident direction, degrees (Cornell grid).
-    #[arg(long, value_name = "DEG", default_value_t = 0.0, value_parser = parse_finite)]
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true, value_parser = parse_not_negative)]
     pub(crate) blind_spot: f64,
     /// Seed of the noise.
     #[arg(long, value_name = "S", default_value_t = 0)]
@@ -270,6 +270,13 @@ fn parse_finite(text: &str) -> Result<f64, String> {
         .ok()
         .filter(|v: &f64| v.is_finite())
         .ok_or_else(|| "expected a finite number".into())
+}
+
+fn parse_not_negative(text: &str) -> Result<f64, String> {
+    parse_finite(text)
+        .ok()
+        .filter(|v| *v >= 0.0)
+        .ok_or_else(|| "expected a number, 0 or more".into())
 }
 
 fn parse_size(text: &str) -> Result<(u32, u32), String> {

@@ -32,7 +32,8 @@ fn located(text: &str, error: ron::error::SpannedError, field: &str) -> Error {
         let lower = first.to_lowercase();
         message.replace_range(..1, &lower);
     }
-    if !(message.contains("found") || message.contains('`')) {
+    let says_both = message.contains('`') && !message.starts_with("expected");
+    if !(message.contains("found") || says_both) {
         message = format!("{message}, found {}", token_at(text, at.line, at.col));
     }
     let error = Error::invalid(message).at(at.line, at.col);
@@ -61,6 +62,7 @@ fn token_at(text: &str, line: usize, column: usize) -> String {
     match (word.is_empty(), rest.chars().next()) {
         (false, _) => format!("`{word}`"),
         (true, Some(sign)) => format!("`{sign}`"),
+        (true, None) if line >= text.lines().count() => "the end of the file".into(),
         (true, None) => "the end of the line".into(),
     }
 }
