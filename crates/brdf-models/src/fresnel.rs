@@ -47,7 +47,7 @@ impl<const N: usize> Fresnel<N> {
     }
 
     /// [`Self::eval`] of one channel for a packet of cosines.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn eval_lanes(&self, channel: usize, c: &[f32; LANES]) -> [f32; LANES] {
         let (n, k) = (self.n[channel], self.k[channel]);
         if n.is_infinite() {

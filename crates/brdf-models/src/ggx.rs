@@ -115,7 +115,7 @@ impl<const N: usize> Brdf<N> for Ggx<N> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn eval_lanes(&self, wi: &Lanes3, wo: &Lanes3) -> [[f32; LANES]; N] {
         let kernel = self.kernel();
         let (mut lobe, mut cos_d, mut diffuse) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
@@ -188,7 +188,7 @@ impl<const N: usize> DirectionSampler for Ggx<N> {
         self.mixture_pdf(wi, wo)
     }
 
-    #[inline]
+    #[inline(always)]
     fn sample_lanes(&self, wo: &Lanes3, u: &[[f32; LANES]; 2]) -> SampleLanes {
         let p = self.probability_lanes(wo);
         let kernel = self.kernel();
@@ -214,7 +214,7 @@ impl<const N: usize> DirectionSampler for Ggx<N> {
         SampleLanes { wi, pdf }
     }
 
-    #[inline]
+    #[inline(always)]
     fn pdf_lanes(&self, wi: &Lanes3, wo: &Lanes3) -> [f32; LANES] {
         self.pdf_lanes_with(wi, wo, &self.probability_lanes(wo))
     }
@@ -250,7 +250,7 @@ impl<const N: usize> Ggx<N> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn probability_lanes(&self, wo: &Lanes3) -> [f32; LANES] {
         if !self.has_diffuse() {
             return [1.0; LANES];
@@ -268,7 +268,7 @@ impl<const N: usize> Ggx<N> {
         specular.map(|s| s / (s + diffuse))
     }
 
-    #[inline]
+    #[inline(always)]
     fn pdf_lanes_with(&self, wi: &Lanes3, wo: &Lanes3, p: &[f32; LANES]) -> [f32; LANES] {
         let kernel = self.kernel();
         let mut pdf = [0.0; LANES];
