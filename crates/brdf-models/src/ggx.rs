@@ -241,7 +241,7 @@ impl<const N: usize> Ggx<N> {
         self.diffuse.iter().any(|&d| d > 0.0)
     }
 
-    #[inline]
+    #[inline(always)]
     fn kernel(&self) -> Kernel {
         Kernel {
             alpha: [self.alpha_x as f32, self.alpha_y as f32],
@@ -286,13 +286,13 @@ impl<const N: usize> Ggx<N> {
 }
 
 impl Kernel {
-    #[inline]
+    #[inline(always)]
     fn stretched(&self, w: &Lanes3, k: usize) -> f32 {
         let (x, y) = (self.alpha[0] * w.x[k], self.alpha[1] * w.y[k]);
         (x * x + y * y + w.z[k] * w.z[k]).sqrt()
     }
 
-    #[inline]
+    #[inline(always)]
     fn ndf(&self, wi: &Lanes3, wo: &Lanes3, k: usize) -> Ndf {
         let (x, y, z) = (wi.x[k] + wo.x[k], wi.y[k] + wo.y[k], wi.z[k] + wo.z[k]);
         let len2 = x * x + y * y + z * z;
@@ -304,7 +304,7 @@ impl Kernel {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn sample(&self, wo: &Lanes3, u: &[[f32; LANES]; 2]) -> Lanes3 {
         let mut wi = Lanes3::ZERO;
         for k in 0..LANES {
