@@ -47,7 +47,7 @@ impl<const N: usize> Fresnel<N> {
     }
 
     /// [`Self::eval`] of one channel for a packet of cosines.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn eval_lanes(&self, channel: usize, c: &[f32; LANES]) -> [f32; LANES] {
         let (n, k) = (self.n[channel], self.k[channel]);
         if n.is_infinite() {
@@ -93,7 +93,7 @@ fn unpolarised(n: f64, k: f64, c: f64) -> f64 {
 }
 
 /// [`unpolarised`] in f32; `e_re` = n^2 - k^2, `e_im` = n k.
-#[inline]
+#[inline(always)]
 fn unpolarised_f32(e_re: f32, e_im: f32, c: f32) -> f32 {
     let c2 = c * c;
     let s2 = (1.0 - c2).max(0.0);

@@ -115,7 +115,7 @@ impl<const N: usize> Brdf<N> for Ggx<N> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn eval_lanes(&self, wi: &Lanes3, wo: &Lanes3) -> [[f32; LANES]; N] {
         let kernel = self.kernel();
         let (mut lobe, mut cos_d, mut diffuse) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
@@ -188,7 +188,7 @@ impl<const N: usize> DirectionSampler for Ggx<N> {
         self.mixture_pdf(wi, wo)
     }
 
-    #[inline]
+    #[inline(always)]
     fn sample_lanes(&self, wo: &Lanes3, u: &[[f32; LANES]; 2]) -> SampleLanes {
         let p = self.probability_lanes(wo);
         let kernel = self.kernel();
@@ -214,7 +214,7 @@ impl<const N: usize> DirectionSampler for Ggx<N> {
         SampleLanes { wi, pdf }
     }
 
-    #[inline]
+    #[inline(always)]
     fn pdf_lanes(&self, wi: &Lanes3, wo: &Lanes3) -> [f32; LANES] {
         self.pdf_lanes_with(wi, wo, &self.probability_lanes(wo))
     }
@@ -241,7 +241,7 @@ impl<const N: usize> Ggx<N> {
         self.diffuse.iter().any(|&d| d > 0.0)
     }
 
-    #[inline]
+    #[inline(always)]
     fn kernel(&self) -> Kernel {
         Kernel {
             alpha: [self.alpha_x as f32, self.alpha_y as f32],
@@ -250,7 +250,7 @@ impl<const N: usize> Ggx<N> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn probability_lanes(&self, wo: &Lanes3) -> [f32; LANES] {
         if !self.has_diffuse() {
             return [1.0; LANES];
@@ -268,7 +268,7 @@ impl<const N: usize> Ggx<N> {
         specular.map(|s| s / (s + diffuse))
     }
 
-    #[inline]
+    #[inline(always)]
     fn pdf_lanes_with(&self, wi: &Lanes3, wo: &Lanes3, p: &[f32; LANES]) -> [f32; LANES] {
         let kernel = self.kernel();
         let mut pdf = [0.0; LANES];
@@ -286,13 +286,13 @@ impl<const N: usize> Ggx<N> {
 }
 
 impl Kernel {
-    #[inline]
+    #[inline(always)]
     fn stretched(&self, w: &Lanes3, k: usize) -> f32 {
         let (x, y) = (self.alpha[0] * w.x[k], self.alpha[1] * w.y[k]);
         (x * x + y * y + w.z[k] * w.z[k]).sqrt()
     }
 
-    #[inline]
+    #[inline(always)]
     fn ndf(&self, wi: &Lanes3, wo: &Lanes3, k: usize) -> Ndf {
         let (x, y, z) = (wi.x[k] + wo.x[k], wi.y[k] + wo.y[k], wi.z[k] + wo.z[k]);
         let len2 = x * x + y * y + z * z;
@@ -304,7 +304,7 @@ impl Kernel {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn sample(&self, wo: &Lanes3, u: &[[f32; LANES]; 2]) -> Lanes3 {
         let mut wi = Lanes3::ZERO;
         for k in 0..LANES {

@@ -45,7 +45,7 @@ impl<const N: usize> Brdf<N> for Lambert<N> {
         Symmetry::FULL
     }
 
-    #[inline]
+    #[inline(always)]
     fn eval_lanes(&self, wi: &Lanes3, wo: &Lanes3) -> [[f32; LANES]; N] {
         let above = lanes::above(wi, wo);
         self.albedo
@@ -70,14 +70,14 @@ impl<const N: usize> DirectionSampler for Lambert<N> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn sample_lanes(&self, wo: &Lanes3, u: &[[f32; LANES]; 2]) -> SampleLanes {
         let wi = lanes::cosine(u);
         let pdf = lanes::cosine_pdf(&wi, wo);
         SampleLanes { wi, pdf }
     }
 
-    #[inline]
+    #[inline(always)]
     fn pdf_lanes(&self, wi: &Lanes3, wo: &Lanes3) -> [f32; LANES] {
         lanes::cosine_pdf(wi, wo)
     }

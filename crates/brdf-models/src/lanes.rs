@@ -4,7 +4,7 @@ use brdf::{LANES, Lanes3};
 use std::f32::consts::{FRAC_1_PI, TAU};
 
 /// Sine and cosine of 2 pi u for u in [0, 1); absolute error below 2e-7.
-#[inline]
+#[inline(always)]
 pub(crate) fn sin_cos_turn(u: f32) -> (f32, f32) {
     // quadrant q, remainder r in [-1/8, 1/8] turns, then Taylor on |x| <= pi/4
     let q = (4.0 * u + 0.5) as i32;
@@ -22,7 +22,7 @@ pub(crate) fn sin_cos_turn(u: f32) -> (f32, f32) {
 }
 
 /// Cosine-distributed directions, polar map.
-#[inline]
+#[inline(always)]
 pub(crate) fn cosine(u: &[[f32; LANES]; 2]) -> Lanes3 {
     let mut w = Lanes3::ZERO;
     for k in 0..LANES {
@@ -36,7 +36,7 @@ pub(crate) fn cosine(u: &[[f32; LANES]; 2]) -> Lanes3 {
 }
 
 /// Densities of [`cosine`].
-#[inline]
+#[inline(always)]
 pub(crate) fn cosine_pdf(wi: &Lanes3, wo: &Lanes3) -> [f32; LANES] {
     std::array::from_fn(|k| {
         if wo.z[k] > 0.0 {
@@ -48,7 +48,7 @@ pub(crate) fn cosine_pdf(wi: &Lanes3, wo: &Lanes3) -> [f32; LANES] {
 }
 
 /// 1 where both directions are above the horizon, else 0.
-#[inline]
+#[inline(always)]
 pub(crate) fn above(wi: &Lanes3, wo: &Lanes3) -> [f32; LANES] {
     std::array::from_fn(|k| if wi.z[k].min(wo.z[k]) > 0.0 { 1.0 } else { 0.0 })
 }

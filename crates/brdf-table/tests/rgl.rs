@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use brdf::{Brdf, DirectionSampler, Measured, Status, direction};
+use brdf::{Brdf, DirectionSampler, LANES, Lanes3, Measured, Status, direction};
 use brdf_formats::RglFile;
 use brdf_table::{RglN, RglTable};
 use glam::{DVec2, DVec3};
@@ -220,5 +220,69 @@ fn hard_cases_are_finite() {
                 );
             }
         }
+    }
+}
+
+/// Packets against the scalar form at the same directions.
+#[test]
+fn packets_agree_with_the_scalar_form() {
+    let Some(dir) = dir() else { return };
+    let mut rng = sampling::Rng::new(5);
+    for name in ["satin_rosaline_rgb.bsdf", "cc_ibiza_sunset_rgb.bsdf"] {
+        let table = Arc::new(load(&dir, name));
+        let three = RglN::<3>::new(Arc::clone(&table)).unwrap();
+        let (mut worst_f, mut worst_pdf, mut worst_wi) = (0.0_f64, 0.0_f64, 0.0_f64);
+        let mut missed = 0;
+        for round in 0..200 {
+            let (mut wo, mut wi) = (Lanes3::ZERO, Lanes3::ZERO);
+            let mut u = [[0.0; LANES]; 2];
+            for k in 0..LANES {
+                let [a, b] = [rng.uniform2(), rng.uniform2()];
+                // the first lane looks along the normal
+                let (theta, phi) = if k == 0 {
+                    (0.0, 0.0)
+                } else {
+                    (1.5 * a.x, 6.28 * a.y)
+                };
+                wo.set(k, direction(theta, phi).as_vec3());
+                wi.set(k, direction(1.5 * b.x, 6.28 * b.y).as_vec3());
+                let [x, y] = rng.uniform2().to_array();
+                (u[0][k], u[1][k]) = (x as f32, y as f32);
+            }
+            let s = table.sample_lanes(&wo, &u);
+            // half of the rounds where the sampling looks, half anywhere
+            let wi = if round % 2 == 0 { s.wi } else { wi };
+            let (f, pdf) = (three.eval_lanes(&wi, &wo), table.pdf_lanes(&wi, &wo));
+            for k in 0..LANES {
+                let (i, o) = (wi.get(k).as_dvec3(), wo.get(k).as_dvec3());
+                let exact = three.eval(i, o);
+                let scale = exact.iter().fold(1e-3_f64, |a, v| a.max(v.abs()));
+                for c in 0..3 {
+                    worst_f = worst_f.max((f64::from(f[c][k]) - exact[c]).abs() / scale);
+                }
+                let exact = table.pdf(i, o);
+                worst_pdf = worst_pdf.max((f64::from(pdf[k]) - exact).abs() / exact.max(1e-2));
+                let at = DVec2::new(f64::from(u[0][k]), f64::from(u[1][k]));
+                match table.sample(o, at) {
+                    Some(exact) if s.pdf[k] > 0.0 => {
+                        let off = (exact.wi - s.wi.get(k).as_dvec3()).length();
+                        worst_wi = worst_wi.max(off * exact.pdf.sqrt());
+                        if round % 2 == 0 {
+                            let twice = f64::from((s.pdf[k] / pdf[k] - 1.0).abs());
+                            worst_pdf = worst_pdf.max(twice);
+                        }
+                    }
+                    None if s.pdf[k] <= 0.0 => {}
+                    // reflected to the very horizon
+                    _ => missed += 1,
+                }
+            }
+        }
+        println!("{name}: f {worst_f:.1e}, pdf {worst_pdf:.1e}, direction {worst_wi:.1e}");
+        // coordinates are good to 4e-7 of the square, which is 5e-5 of a cell of 128, over which values may double
+        assert!(worst_f < 2e-4, "{name}: f differs by {worst_f:e}");
+        assert!(worst_pdf < 2e-4, "{name}: pdf differs by {worst_pdf:e}");
+        assert!(worst_wi < 1e-5, "{name}: directions differ by {worst_wi:e}");
+        assert!(missed <= 2, "{name}: {missed} samples in one form alone");
     }
 }

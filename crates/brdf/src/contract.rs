@@ -38,7 +38,7 @@ pub trait Brdf<const N: usize>: Send + Sync {
     /// [`Self::eval`] for [`LANES`] pairs at once, in f32: what renderers call.
     ///
     /// The default calls `eval`; override it where speed matters. The two agree to f32 rounding.
-    #[inline]
+    #[inline(always)]
     fn eval_lanes(&self, wi: &Lanes3, wo: &Lanes3) -> [[f32; LANES]; N] {
         let mut out = [[0.0; LANES]; N];
         for k in 0..LANES {
@@ -92,7 +92,7 @@ pub trait DirectionSampler: Send + Sync {
     }
 
     /// [`Self::sample`] for [`LANES`] viewers at once, in f32.
-    #[inline]
+    #[inline(always)]
     fn sample_lanes(&self, wo: &Lanes3, u: &[[f32; LANES]; 2]) -> SampleLanes {
         let mut out = SampleLanes {
             wi: Lanes3::ZERO,
@@ -109,7 +109,7 @@ pub trait DirectionSampler: Send + Sync {
     }
 
     /// [`Self::pdf`] for [`LANES`] pairs at once, in f32.
-    #[inline]
+    #[inline(always)]
     fn pdf_lanes(&self, wi: &Lanes3, wo: &Lanes3) -> [f32; LANES] {
         std::array::from_fn(|k| self.pdf(wi.get(k).as_dvec3(), wo.get(k).as_dvec3()) as f32)
     }
@@ -122,7 +122,7 @@ impl<const N: usize, T: Brdf<N> + ?Sized> Brdf<N> for std::sync::Arc<T> {
     fn symmetry(&self) -> Symmetry {
         (**self).symmetry()
     }
-    #[inline]
+    #[inline(always)]
     fn eval_lanes(&self, wi: &Lanes3, wo: &Lanes3) -> [[f32; LANES]; N] {
         (**self).eval_lanes(wi, wo)
     }
@@ -141,11 +141,11 @@ impl<T: DirectionSampler + ?Sized> DirectionSampler for std::sync::Arc<T> {
     fn bytes(&self) -> usize {
         (**self).bytes()
     }
-    #[inline]
+    #[inline(always)]
     fn sample_lanes(&self, wo: &Lanes3, u: &[[f32; LANES]; 2]) -> SampleLanes {
         (**self).sample_lanes(wo, u)
     }
-    #[inline]
+    #[inline(always)]
     fn pdf_lanes(&self, wi: &Lanes3, wo: &Lanes3) -> [f32; LANES] {
         (**self).pdf_lanes(wi, wo)
     }

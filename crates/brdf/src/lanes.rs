@@ -25,14 +25,14 @@ impl Lanes3 {
     };
 
     /// The vector in lane `k`.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn get(&self, k: usize) -> Vec3 {
         Vec3::new(self.x[k], self.y[k], self.z[k])
     }
 
     /// Replaces the vector in lane `k`.
-    #[inline]
+    #[inline(always)]
     pub fn set(&mut self, k: usize, v: Vec3) {
         self.x[k] = v.x;
         self.y[k] = v.y;

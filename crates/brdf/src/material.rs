@@ -5,6 +5,7 @@
 
 use crate::contract::{Brdf, DirectionSampler};
 use crate::lanes::{LANES, Lanes3};
+use pulp::{Arch, Simd, WithSimd};
 
 /// [`LANES`] evaluations: directions in, f cos and pdf out.
 #[derive(Clone, Debug)]
@@ -74,25 +75,54 @@ pub struct Paired<B, S> {
 
 impl<const N: usize, B: Brdf<N>, S: DirectionSampler> Material<N> for Paired<B, S> {
     fn eval(&self, packets: &mut [EvalPacket<N>]) {
-        for p in packets {
-            p.f_cos = self.brdf.eval_lanes(&p.wi, &p.wo);
-            for channel in &mut p.f_cos {
-                for (f, z) in channel.iter_mut().zip(p.wi.z) {
-                    *f *= z.max(0.0);
-                }
-            }
-            p.pdf = self.sampler.pdf_lanes(&p.wi, &p.wo);
-        }
+        Arch::new().dispatch(Eval(self, packets));
     }
 
     fn sample(&self, packets: &mut [SamplePacket<N>]) {
+        Arch::new().dispatch(Sample(self, packets));
+    }
+}
+
+/// Evaluations to be compiled for each instruction set and run with the widest there is.
+///
+/// What a reflectance and a sampler declare `#[inline(always)]` is compiled with them; the rest still works. Results
+/// are the same bits, since no step is fused.
+struct Eval<'a, B, S, const N: usize>(&'a Paired<B, S>, &'a mut [EvalPacket<N>]);
+
+impl<const N: usize, B: Brdf<N>, S: DirectionSampler> WithSimd for Eval<'_, B, S, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<I: Simd>(self, _: I) {
+        let Self(pair, packets) = self;
         for p in packets {
-            let s = self.sampler.sample_lanes(&p.wo, &p.u);
-            let f = self.brdf.eval_lanes(&s.wi, &p.wo);
-            for (weight, f) in p.weight.iter_mut().zip(f) {
+            p.f_cos = pair.brdf.eval_lanes(&p.wi, &p.wo);
+            for c in 0..N {
                 for k in 0..LANES {
-                    let w = f[k] * s.wi.z[k].max(0.0) / s.pdf[k];
-                    weight[k] = if s.pdf[k] > 0.0 { w } else { 0.0 };
+                    p.f_cos[c][k] *= p.wi.z[k].max(0.0);
+                }
+            }
+            p.pdf = pair.sampler.pdf_lanes(&p.wi, &p.wo);
+        }
+    }
+}
+
+/// Samplings, like [`Eval`].
+struct Sample<'a, B, S, const N: usize>(&'a Paired<B, S>, &'a mut [SamplePacket<N>]);
+
+impl<const N: usize, B: Brdf<N>, S: DirectionSampler> WithSimd for Sample<'_, B, S, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<I: Simd>(self, _: I) {
+        let Self(pair, packets) = self;
+        for p in packets {
+            let s = pair.sampler.sample_lanes(&p.wo, &p.u);
+            let f = pair.brdf.eval_lanes(&s.wi, &p.wo);
+            for c in 0..N {
+                for k in 0..LANES {
+                    let w = f[c][k] * s.wi.z[k].max(0.0) / s.pdf[k];
+                    p.weight[c][k] = if s.pdf[k] > 0.0 { w } else { 0.0 };
                 }
             }
             p.wi = s.wi;

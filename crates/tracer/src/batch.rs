@@ -5,9 +5,9 @@
 //! one slot a path and added to the film in the order of the slots, whatever the paths' order became.
 
 use crate::film::Tile;
-use crate::kernel::Kernel;
+use crate::kernel::{Kernel, SHINES};
 use crate::light::LightLanes;
-use crate::math::splat3;
+use crate::math::{F, U, splat3};
 use crate::path::{HitLanes, NONE, PathState, Paths, Shadows};
 use crate::stats::Stats;
 use crate::vertex::VertexLanes;
@@ -61,6 +61,8 @@ pub(crate) struct Workspace<const N: usize> {
     order: Vec<u32>,
     bucket: Vec<u32>,
     ends: Vec<usize>,
+    /// Paths that met a light.
+    met: Vec<u32>,
     vertices: Vec<VertexLanes<N>>,
     lights: Vec<LightLanes<N>>,
     evals: Vec<EvalPacket<N>>,
@@ -87,6 +89,7 @@ impl<const N: usize> Workspace<N> {
             order: vec![0; capacity],
             bucket: vec![0; capacity],
             ends: vec![0; materials + 1],
+            met: vec![0; capacity],
             vertices: vec![VertexLanes::EMPTY; BLOCKS],
             lights: vec![LightLanes::EMPTY; BLOCKS],
             evals: vec![EvalPacket::ZERO; BLOCKS],
@@ -196,32 +199,31 @@ impl<const N: usize> Workspace<N> {
     /// Adds the light that rays met, and sorts the paths that go on by material (counting sort).
     #[inline(always)]
     fn meet(&mut self, kernel: &Kernel<'_, N>, depth: u32) {
-        let scene = kernel.scene;
-        let materials = scene.materials.len() as u32;
-        let count = depth == 0 || kernel.count_met;
-        let go_on = depth < kernel.max_depth;
+        let geometry = &kernel.scene.geometry;
+        let end = kernel.scene.materials.len() as u32;
+        let last = depth == kernel.max_depth;
+        let nothing = kernel.sides.len() - 1;
         self.ends.fill(0);
+        let mut met = 0;
         for i in 0..self.paths.len {
-            let prim = self.hits[i / LANES].prim[i % LANES];
-            let mut bucket = materials;
-            if prim == NONE {
-                if let (Some(light), true) = (scene.environment, count) {
-                    self.meet_light(kernel, depth, i, light);
-                }
+            let (hits, k) = (&self.hits[i / LANES], i % LANES);
+            let prim = hits.prim[k];
+            let side = if prim == NONE {
+                nothing
             } else {
-                let surface = scene.surfaces[scene.geometry.object(prim) as usize];
-                if go_on {
-                    bucket = surface.material;
-                }
-                if surface.one_sided && self.behind(kernel, i) {
-                    bucket = materials;
-                }
-                if surface.light != NONE && count && !self.behind(kernel, i) {
-                    self.meet_light(kernel, depth, i, surface.light);
-                }
-            }
+                (2 * geometry.object(prim) + hits.back[k]) as usize
+            };
+            let code = kernel.sides[side];
+            let bucket = if last { end } else { code & !SHINES };
             self.bucket[i] = bucket;
             self.ends[bucket as usize] += 1;
+            self.met[met] = i as u32;
+            met += usize::from(code & SHINES != 0);
+        }
+        if depth == 0 || kernel.count_met {
+            for n in 0..met {
+                self.meet_light(kernel, depth, self.met[n] as usize);
+            }
         }
         let mut sum = 0;
         for end in &mut self.ends {
@@ -236,40 +238,27 @@ impl<const N: usize> Workspace<N> {
         }
     }
 
-    /// Whether path `i` met the back of its primitive.
-    fn behind(&self, kernel: &Kernel<'_, N>, i: usize) -> bool {
-        let (rays, hits, k) = (
-            &self.paths.rays[i / LANES],
-            &self.hits[i / LANES],
-            i % LANES,
-        );
-        let (o, d) = (rays.o.get(k), rays.d.get(k));
-        let at = kernel.scene.geometry.point(hits.prim[k], o, d, hits.t[k]);
-        at.normal.dot(d) > 0.0
-    }
-
-    /// Adds light number `light`, which path `i` met.
+    /// Adds the light that path `i` met.
     #[inline(always)]
-    fn meet_light(&mut self, kernel: &Kernel<'_, N>, depth: u32, i: usize, light: u32) {
+    fn meet_light(&mut self, kernel: &Kernel<'_, N>, depth: u32, i: usize) {
+        let scene = kernel.scene;
         let (rays, hits, k) = (
             &self.paths.rays[i / LANES],
             &self.hits[i / LANES],
             i % LANES,
         );
-        let (o, d) = (rays.o.get(k), rays.d.get(k));
-        let light = &kernel.lights.lights[light as usize];
+        let (o, d, prim) = (rays.o.get(k), rays.d.get(k), hits.prim[k]);
+        let light = if prim == NONE {
+            scene.environment.unwrap_or(NONE)
+        } else {
+            scene.surfaces[scene.geometry.object(prim) as usize].light
+        };
+        let Some(light) = kernel.lights.lights.get(light as usize) else {
+            return;
+        };
         let weight = if depth > 0 && kernel.weigh {
-            let normal = if hits.prim[k] == NONE {
-                d
-            } else {
-                kernel
-                    .scene
-                    .geometry
-                    .point(hits.prim[k], o, d, hits.t[k])
-                    .normal
-            };
             let pdf = self.paths.pdf[i];
-            let other = light.pdf(o, d, hits.t[k], normal);
+            let other = light.pdf(o, d, hits.t[k], || scene.geometry.flat_normal(prim));
             // written so that an infinite density of the material gives one
             1.0 / (1.0 + other / pdf)
         } else {
@@ -312,9 +301,7 @@ impl<const N: usize> Workspace<N> {
                 kernel.lights.sample(&vertex.o, &choice, &on_light, light);
                 let eval = &mut self.evals[blocks];
                 eval.wo = vertex.wo;
-                for k in 0..LANES {
-                    eval.wi.set(k, vertex.local(k, light.wi.get(k)));
-                }
+                eval.wi = vertex.locals(&light.wi);
             }
             blocks += 1;
         }
@@ -338,33 +325,61 @@ impl<const N: usize> Workspace<N> {
                 self.advance_shadows(kernel, block);
             }
             let (vertex, s) = (&self.vertices[block], &self.samples[block]);
+            let mut throughput = [[0.0; LANES]; N];
+            for c in 0..N {
+                for k in 0..LANES {
+                    throughput[c][k] = vertex.throughput[c][k] * s.weight[c][k];
+                }
+            }
+            let d = vertex.worlds(&s.wi);
+            let mut keep = lasts(&throughput);
+            for k in 0..LANES {
+                keep[k] &= u32::from(s.pdf[k] > 0.0);
+            }
+            if kernel.scene.smooth {
+                vertex.drop_below(&d, &mut keep);
+            }
+            if depth + 1 >= kernel.roulette {
+                self.roulette(kernel, depth, block, &mut throughput, &mut keep);
+            }
+            let (vertex, s) = (&self.vertices[block], &self.samples[block]);
             for k in 0..vertex.count {
-                let mut throughput = [0.0; N];
-                for c in 0..N {
-                    throughput[c] = vertex.throughput[c][k] * s.weight[c][k];
-                }
-                let d = vertex.world(k, s.wi.get(k));
-                let above = !kernel.scene.smooth || d.dot(vertex.g.get(k)) > 0.0;
-                let slot = vertex.slot[k];
-                if !(s.pdf[k] > 0.0 && above && lasts(&throughput)) {
-                    continue;
-                }
-                if depth + 1 >= kernel.roulette {
-                    let (stream, index) = (self.stream[slot as usize], self.index[slot as usize]);
-                    let survive = strength(&throughput).min(1.0);
-                    if kernel.chance(stream, index, depth) >= survive {
-                        continue;
-                    }
-                    throughput = throughput.map(|x| x / survive);
-                }
-                self.next.push(&PathState {
+                let path = PathState {
                     o: vertex.o.get(k),
-                    d,
+                    d: d.get(k),
                     from: vertex.from[k],
-                    slot,
+                    slot: vertex.slot[k],
                     pdf: s.pdf[k],
-                    throughput,
-                });
+                    throughput: std::array::from_fn(|c| throughput[c][k]),
+                };
+                self.next.push(&path, keep[k] != 0);
+            }
+        }
+    }
+
+    /// Ends weak paths by chance and strengthens those that survive.
+    #[inline(never)]
+    fn roulette(
+        &self,
+        kernel: &Kernel<'_, N>,
+        depth: u32,
+        block: usize,
+        throughput: &mut [F; N],
+        keep: &mut U,
+    ) {
+        let vertex = &self.vertices[block];
+        for k in 0..vertex.count {
+            if keep[k] == 0 {
+                continue;
+            }
+            let slot = vertex.slot[k] as usize;
+            let most = throughput.iter().fold(0.0_f32, |m, c| m.max(c[k].abs()));
+            let survive = most.min(1.0);
+            if kernel.chance(self.stream[slot], self.index[slot], depth) >= survive {
+                keep[k] = 0;
+            }
+            for channel in throughput.iter_mut() {
+                channel[k] /= survive;
             }
         }
     }
@@ -377,32 +392,40 @@ impl<const N: usize> Workspace<N> {
             &self.evals[block],
             &self.lights[block],
         );
-        for k in 0..vertex.count {
+        let mut weight = [0.0; LANES];
+        for k in 0..LANES {
             let found_by_material = if kernel.weigh {
                 light.shared[k] * eval.pdf[k]
             } else {
                 0.0
             };
-            let weight = 1.0 / (light.pdf[k] + found_by_material);
-            let mut carried = [0.0; N];
-            for c in 0..N {
-                carried[c] =
-                    vertex.throughput[c][k] * eval.f_cos[c][k] * light.radiance[c][k] * weight;
+            weight[k] = 1.0 / (light.pdf[k] + found_by_material);
+        }
+        let mut carried = [[0.0; LANES]; N];
+        for c in 0..N {
+            for k in 0..LANES {
+                let f_cos = vertex.throughput[c][k] * eval.f_cos[c][k];
+                carried[c][k] = f_cos * light.radiance[c][k] * weight[k];
             }
-            let d = light.wi.get(k);
-            let above = !kernel.scene.smooth || d.dot(vertex.g.get(k)) > 0.0;
-            if light.pdf[k] > 0.0 && eval.wi.z[k] > 0.0 && above && lasts(&carried) {
-                let path = PathState {
-                    o: vertex.o.get(k),
-                    d,
-                    from: vertex.from[k],
-                    slot: vertex.slot[k],
-                    pdf: 0.0,
-                    throughput: carried,
-                };
-                self.shadows
-                    .push(&path, light.distance[k] * NEARLY, light.prim[k]);
-            }
+        }
+        let mut keep = lasts(&carried);
+        for k in 0..LANES {
+            keep[k] &= u32::from((light.pdf[k] > 0.0) & (eval.wi.z[k] > 0.0));
+        }
+        if kernel.scene.smooth {
+            vertex.drop_below(&light.wi, &mut keep);
+        }
+        for k in 0..vertex.count {
+            let path = PathState {
+                o: vertex.o.get(k),
+                d: light.wi.get(k),
+                from: vertex.from[k],
+                slot: vertex.slot[k],
+                pdf: 0.0,
+                throughput: std::array::from_fn(|c| carried[c][k]),
+            };
+            let t_max = light.distance[k] * NEARLY;
+            self.shadows.push(&path, t_max, light.prim[k], keep[k] != 0);
         }
     }
 
@@ -439,24 +462,16 @@ impl<const N: usize> Workspace<N> {
     }
 }
 
-/// The largest magnitude.
+/// 1 in each lane in which anything is left to carry: not zero, not infinite, not NaN.
 #[inline(always)]
-fn strength<const N: usize>(values: &[f32; N]) -> f32 {
-    let mut most = 0.0_f32;
-    for v in values {
-        most = most.max(v.abs());
+fn lasts<const N: usize>(values: &[F; N]) -> U {
+    let mut sum = [0.0; LANES];
+    for channel in values {
+        for k in 0..LANES {
+            sum[k] += channel[k].abs();
+        }
     }
-    most
-}
-
-/// Whether anything is left to carry: not zero, not infinite, not NaN.
-#[inline(always)]
-fn lasts<const N: usize>(values: &[f32; N]) -> bool {
-    let mut sum = 0.0;
-    for v in values {
-        sum += v.abs();
-    }
-    sum > FAINT && sum < f32::INFINITY
+    std::array::from_fn(|k| u32::from((sum[k] > FAINT) & (sum[k] < f32::INFINITY)))
 }
 
 /// A slice of [`LANES`] values as an array.

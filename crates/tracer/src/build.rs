@@ -292,7 +292,7 @@ impl<const N: usize> Builder<N> {
 
     /// Orders the primitives, builds the tree, tells lights which primitives they are.
     fn close_geometry(&mut self, objects: &[Object<N>]) {
-        self.geometry.objects = [&self.sphere_objects[..], &self.quad_objects[..]].concat();
+        (self.geometry).close([&self.sphere_objects[..], &self.quad_objects[..]].concat());
         for (prim, &object) in self.geometry.objects.iter().enumerate() {
             let light = self.surfaces[object as usize].light;
             if let Some(light) = self.lights.get_mut(light as usize) {

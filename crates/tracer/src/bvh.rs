@@ -95,6 +95,12 @@ impl Bvh {
         }
     }
 
+    /// Along the front normal of triangle `index`; not unit.
+    #[inline]
+    pub(crate) fn normal(&self, index: u32) -> Vec3 {
+        self.triangles[index as usize].cross()
+    }
+
     /// Corners of all triangles.
     pub(crate) fn corners(&self) -> impl Iterator<Item = Vec3> {
         let unscale = self.unscale;

@@ -4,6 +4,7 @@ use crate::camera::Rays;
 use crate::filter::Sampler;
 use crate::light::Lights;
 use crate::math::mix;
+use crate::path::NONE;
 use crate::scene::Scene;
 use crate::settings::{Settings, Strategy};
 use sampling::Points;
@@ -34,7 +35,13 @@ pub(crate) struct Kernel<'a, const N: usize> {
     pub(crate) count_met: bool,
     /// Whether both are weighed against each other.
     pub(crate) weigh: bool,
+    /// Where paths go that meet the front or the back of an object (entries 2 i and 2 i + 1), or nothing (the last):
+    /// a material, or as many as there are for the end; plus [`SHINES`] where light is met.
+    pub(crate) sides: Vec<u32>,
 }
+
+/// Marks sides that shine.
+pub(crate) const SHINES: u32 = 1 << 31;
 
 impl<'a, const N: usize> Kernel<'a, N> {
     pub(crate) fn new(
@@ -62,6 +69,7 @@ impl<'a, const N: usize> Kernel<'a, N> {
             ask_lights: settings.strategy != Strategy::BsdfOnly && lights.any(),
             count_met: settings.strategy != Strategy::LightOnly,
             weigh: settings.strategy == Strategy::Mis,
+            sides: sides(scene),
         }
     }
 
@@ -78,4 +86,15 @@ impl<'a, const N: usize> Kernel<'a, N> {
             ((u64::from(stream) << 32) | u64::from(index)) ^ mix(self.seed ^ u64::from(depth));
         (mix(key) >> 40) as f32 * (1.0 / 16_777_216.0)
     }
+}
+
+fn sides<const N: usize>(scene: &Scene<N>) -> Vec<u32> {
+    let end = scene.materials.len() as u32;
+    let shine = |light: bool| if light { SHINES } else { 0 };
+    let objects = scene.surfaces.iter().flat_map(|s| {
+        let back = if s.one_sided { end } else { s.material };
+        [s.material | shine(s.light != NONE), back]
+    });
+    let nothing = end | shine(scene.environment.is_some());
+    objects.chain([nothing]).collect()
 }

@@ -39,12 +39,15 @@ pub(crate) struct HitLanes {
     pub(crate) t: F,
     /// Primitive, or [`NONE`].
     pub(crate) prim: U,
+    /// 1 where its back was met, up to rounding for rays along the surface.
+    pub(crate) back: U,
 }
 
 impl HitLanes {
     pub(crate) const EMPTY: Self = Self {
         t: [0.0; LANES],
         prim: [NONE; LANES],
+        back: [0; LANES],
     };
 }
 
@@ -84,9 +87,9 @@ impl<const N: usize> Paths<N> {
         }
     }
 
-    /// Appends a path; the caller keeps to the capacity.
+    /// Appends a path if it is to be kept; nothing branches on that. The caller keeps to the capacity.
     #[inline(always)]
-    pub(crate) fn push(&mut self, path: &PathState<N>) {
+    pub(crate) fn push(&mut self, path: &PathState<N>, keep: bool) {
         let (block, k) = (self.len / LANES, self.len % LANES);
         let rays = &mut self.rays[block];
         rays.o.set(k, path.o);
@@ -96,7 +99,7 @@ impl<const N: usize> Paths<N> {
         self.slot[self.len] = path.slot;
         self.pdf[self.len] = path.pdf;
         self.throughput[self.len] = path.throughput;
-        self.len += 1;
+        self.len += usize::from(keep);
     }
 
     /// Closes the last block: its unused lanes meet nothing.
@@ -139,9 +142,10 @@ impl<const N: usize> Shadows<N> {
         }
     }
 
-    /// Appends a ray of length `t_max` toward primitive `target` carrying `path.throughput`.
+    /// Appends a ray of length `t_max` toward primitive `target` carrying `path.throughput` if it is to be kept;
+    /// nothing branches on that.
     #[inline(always)]
-    pub(crate) fn push(&mut self, path: &PathState<N>, t_max: f32, target: u32) {
+    pub(crate) fn push(&mut self, path: &PathState<N>, t_max: f32, target: u32, keep: bool) {
         let (block, k) = (self.len / LANES, self.len % LANES);
         let rays = &mut self.rays[block];
         rays.o.set(k, path.o);
@@ -151,7 +155,7 @@ impl<const N: usize> Shadows<N> {
         self.target[block][k] = target;
         self.slot[self.len] = path.slot;
         self.light[self.len] = path.throughput;
-        self.len += 1;
+        self.len += usize::from(keep);
     }
 
     /// Closes the last block: its unused lanes meet nothing.

@@ -52,28 +52,35 @@ impl<const N: usize> VertexLanes<N> {
     ) {
         self.count = which.len();
         let last = which.len() - 1;
+        let (mut o, mut d) = (Lanes3::ZERO, Lanes3::ZERO);
+        let (mut t, mut prim) = ([0.0; LANES], [0; LANES]);
         for k in 0..LANES {
             let i = which[k.min(last)] as usize;
             let (block, lane) = (i / LANES, i % LANES);
-            let rays = &paths.rays[block];
-            let (o, d) = (rays.o.get(lane), rays.d.get(lane));
-            let (t, prim) = (hits[block].t[lane], hits[block].prim[lane]);
-            let at = geometry.point(prim, o, d, t);
-            let back = d.dot(at.normal) > 0.0;
+            let (rays, hits) = (&paths.rays[block], &hits[block]);
+            o.set(k, rays.o.get(lane));
+            d.set(k, rays.d.get(lane));
+            (t[k], prim[k]) = (hits.t[lane], hits.prim[lane]);
+            self.slot[k] = paths.slot[i];
+            let throughput = paths.throughput[i];
+            for c in 0..N {
+                self.throughput[c][k] = throughput[c];
+            }
+        }
+        let at = geometry.points(&prim, &o, &d, &t);
+        for k in 0..LANES {
+            let (dir, normal) = (d.get(k), at.normal.get(k));
+            let back = normal.dot(dir) > 0.0;
             let side = if back { -1.0 } else { 1.0 };
-            let g = at.normal * side;
-            let n = at.shading * side;
+            let g = normal * side;
+            let n = at.shading.get(k) * side;
             // a shading normal that looks away from the viewer can't serve
-            let n = if n.dot(d) < 0.0 { n } else { g };
-            self.o.set(k, at.p + g * at.error);
+            let n = if n.dot(dir) < 0.0 { n } else { g };
+            self.o.set(k, at.p.get(k) + g * at.error[k]);
             self.g.set(k, g);
             self.n.set(k, n);
-            self.wo.set(k, -d);
-            self.from[k] = 2 * prim + u32::from(back);
-            self.slot[k] = paths.slot[i];
-            for c in 0..N {
-                self.throughput[c][k] = paths.throughput[i][c];
-            }
+            self.wo.set(k, -dir);
+            self.from[k] = 2 * prim[k] + u32::from(back);
         }
         self.frames();
     }
@@ -91,19 +98,34 @@ impl<const N: usize> VertexLanes<N> {
         }
     }
 
-    /// A world direction in the frame of lane `k`.
+    /// World directions in the frames.
     #[inline(always)]
-    pub(crate) fn local(&self, k: usize, w: Vec3) -> Vec3 {
-        Vec3::new(
-            w.dot(self.s.get(k)),
-            w.dot(self.t.get(k)),
-            w.dot(self.n.get(k)),
-        )
+    pub(crate) fn locals(&self, w: &Lanes3) -> Lanes3 {
+        let mut out = Lanes3::ZERO;
+        for k in 0..LANES {
+            let w = w.get(k);
+            let (s, t, n) = (self.s.get(k), self.t.get(k), self.n.get(k));
+            out.set(k, Vec3::new(w.dot(s), w.dot(t), w.dot(n)));
+        }
+        out
     }
 
-    /// A direction of the frame of lane `k` in the world.
+    /// Directions of the frames in the world.
     #[inline(always)]
-    pub(crate) fn world(&self, k: usize, w: Vec3) -> Vec3 {
-        self.s.get(k) * w.x + self.t.get(k) * w.y + self.n.get(k) * w.z
+    pub(crate) fn worlds(&self, w: &Lanes3) -> Lanes3 {
+        let mut out = Lanes3::ZERO;
+        for k in 0..LANES {
+            let (s, t, n) = (self.s.get(k), self.t.get(k), self.n.get(k));
+            out.set(k, s * w.x[k] + t * w.y[k] + n * w.z[k]);
+        }
+        out
+    }
+
+    /// Clears the lanes of `keep` whose world direction leaves below the surface.
+    #[inline(always)]
+    pub(crate) fn drop_below(&self, d: &Lanes3, keep: &mut U) {
+        for k in 0..LANES {
+            keep[k] &= u32::from(d.get(k).dot(self.g.get(k)) > 0.0);
+        }
     }
 }

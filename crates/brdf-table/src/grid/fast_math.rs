@@ -16,7 +16,7 @@ const ATAN: [f32; 8] = [
 ];
 
 /// The angle of (x, y) for y >= 0, in [0, pi]; relative error below 4e-7. The angle of (0, 0) is 0.
-#[inline]
+#[inline(always)]
 pub(crate) fn atan2_upper(y: f32, x: f32) -> f32 {
     let ax = x.abs();
     let small = if y < ax { y } else { ax };
@@ -39,7 +39,7 @@ const ROUNDER: f32 = 12_582_912.0;
 ///
 /// A position that lies on a whole number may come out as (k, 0) or (k - 1, 1): the same place.
 /// NaN gives some index in range.
-#[inline]
+#[inline(always)]
 pub(crate) fn split(position: f32, last: u32) -> (u32, f32) {
     let shifted = (position - 0.5) + ROUNDER;
     let whole = (shifted.to_bits() & 0x3F_FFFF).min(last - 1);

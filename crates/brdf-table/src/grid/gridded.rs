@@ -83,7 +83,7 @@ impl<const N: usize> Brdf<N> for GriddedN<N> {
         self.table.symmetry()
     }
 
-    #[inline]
+    #[inline(always)]
     fn eval_lanes(&self, wi: &Lanes3, wo: &Lanes3) -> [[f32; LANES]; N] {
         self.lanes
             .eval(self.table.nodes(), self.interpolation, wi, wo)

@@ -51,7 +51,7 @@ impl LaneLayout {
     }
 
     /// Interpolates `nodes`, `N` floats each, for every lane; zero where a direction is not above the horizon.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn eval<const N: usize>(
         &self,
         nodes: &[f32],

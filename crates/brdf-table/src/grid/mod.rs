@@ -8,7 +8,7 @@ mod albedo;
 mod builder;
 mod combine;
 mod error;
-mod fast_math;
+pub(crate) mod fast_math;
 mod gridded;
 mod lanes;
 mod layout;

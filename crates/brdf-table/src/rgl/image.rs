@@ -25,10 +25,12 @@ impl Image {
         Self { nx, ny, data }
     }
 
+    #[inline(always)]
     pub(crate) fn nx(&self) -> usize {
         self.nx
     }
 
+    #[inline(always)]
     pub(crate) fn ny(&self) -> usize {
         self.ny
     }
@@ -48,9 +50,25 @@ impl Image {
         Place { col, row, x, y }
     }
 
+    /// All nodes, grid by grid, row by row.
+    pub(crate) fn nodes(&self) -> &[f32] {
+        &self.data
+    }
+
     /// Node `[row, col]` of grid `slice`.
     pub(crate) fn node(&self, slice: usize, row: usize, col: usize) -> f64 {
         f64::from(self.data[(slice * self.ny + row) * self.nx + col])
+    }
+
+    /// The four nodes from `[row, col]` on of the first grid, row by row.
+    #[inline(always)]
+    pub(crate) fn cell(&self, row: usize, col: usize) -> [[f32; 2]; 2] {
+        let pair = |row: usize| {
+            let start = row * self.nx + col;
+            let nodes = &self.data[start..start + 2];
+            [nodes[0], nodes[1]]
+        };
+        [pair(row), pair(row + 1)]
     }
 
     /// Grid `slice` at a place.

@@ -24,6 +24,11 @@ impl Incidences {
         self.phi.len() * self.theta.len()
     }
 
+    /// Polar angles, ascending.
+    pub(crate) fn theta(&self) -> &[f64] {
+        &self.theta
+    }
+
     /// True if there is but one azimuth.
     pub(crate) fn isotropic(&self) -> bool {
         self.phi.len() == 1

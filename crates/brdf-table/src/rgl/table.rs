@@ -4,11 +4,14 @@
 //! sampled one. The known direction is the viewer's `wo` here, the sampled one the light's `wi`.
 
 use crate::rgl::image::Image;
+use crate::rgl::lanes::{LaneValues, Parts, RglLanes};
 use crate::rgl::slices::{Incidences, Slices};
 use crate::rgl::warp::Warp;
-use brdf::{Brdf, DirectionSample, DirectionSampler, Measured, Status, Symmetry};
+use brdf::{Brdf, DirectionSample, DirectionSampler, LANES, Lanes3};
+use brdf::{Measured, SampleLanes, Status, Symmetry};
 use brdf_formats::{Channels, Error, RglArray, RglFile};
 use glam::{DVec2, DVec3};
+use pulp::{Arch, Simd, WithSimd};
 use spectrum::{Basis, RgbSpace};
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI, TAU};
 use std::sync::Arc;
@@ -25,6 +28,8 @@ pub struct RglTable {
     values: Image,
     /// Whether values are to be multiplied by D / (4 sigma).
     microfacet_factor: bool,
+    /// For packets; needs a single azimuth of incidence.
+    lanes: Option<RglLanes>,
 }
 
 /// Below this cosine of `wi`, f_r is held: values that include the cosine say nothing there.
@@ -49,7 +54,7 @@ impl RglTable {
             Channels::Xyz => Basis::Xyz,
             _ => Basis::Rgb(RgbSpace::srgb()),
         };
-        Ok(Self {
+        let mut table = Self {
             basis,
             incidences: Incidences::new(&view.phi_i, &view.theta_i),
             sigma: image(view.sigma),
@@ -58,7 +63,19 @@ impl RglTable {
             luminance: warp(view.luminance),
             values: image(view.values),
             microfacet_factor: view.jacobian,
-        })
+            lanes: None,
+        };
+        table.lanes = (table.incidences.isotropic()).then(|| {
+            RglLanes::new(&Parts {
+                theta: table.incidences.theta(),
+                sigma: &table.sigma,
+                ndf: &table.ndf,
+                vndf: &table.vndf,
+                luminance: &table.luminance,
+                microfacet_factor: table.microfacet_factor,
+            })
+        });
+        Ok(table)
     }
 
     /// f_r(wi, wo) cos(theta_i), as the file stores it: well-defined down to the horizon. Zero below it.
@@ -192,30 +209,107 @@ impl DirectionSampler for RglTable {
     fn bytes(&self) -> usize {
         let warps = self.vndf.bytes() + self.luminance.bytes();
         let images = self.sigma.bytes() + self.ndf.bytes() + self.values.bytes();
-        warps + images + self.incidences.count() * size_of::<f64>()
+        let lanes = self.lanes.as_ref().map_or(0, RglLanes::bytes);
+        warps + images + lanes + self.incidences.count() * size_of::<f64>()
+    }
+
+    #[inline(always)]
+    fn sample_lanes(&self, wo: &Lanes3, u: &[[f32; LANES]; 2]) -> SampleLanes {
+        match &self.lanes {
+            Some(lanes) => lanes.sample(wo, u),
+            None => sample_each(self, wo, u),
+        }
+    }
+
+    #[inline(always)]
+    fn pdf_lanes(&self, wi: &Lanes3, wo: &Lanes3) -> [f32; LANES] {
+        match &self.lanes {
+            Some(lanes) => lanes.pdf(wi, wo),
+            None => pdf_each(self, wi, wo),
+        }
     }
 }
 
 /// An RGL table of exactly `N` channels: 3 for the RGB files.
 #[derive(Clone, Debug)]
-pub struct RglN<const N: usize>(Arc<RglTable>);
+pub struct RglN<const N: usize> {
+    table: Arc<RglTable>,
+    values: Arc<LaneValues<N>>,
+}
 
 impl<const N: usize> RglN<N> {
     /// `None` if the table does not have `N` channels.
     #[must_use]
     pub fn new(table: Arc<RglTable>) -> Option<Self> {
-        (table.basis.len() == N).then_some(Self(table))
+        let values = (table.basis.len() == N).then(|| Arc::new(LaneValues::new(&table.values)))?;
+        Some(Self { table, values })
     }
 }
 
 impl<const N: usize> Brdf<N> for RglN<N> {
     fn eval(&self, wi: DVec3, wo: DVec3) -> [f64; N] {
         let mut out = [0.0; N];
-        self.0.eval_native(wi, wo, &mut out);
+        self.table.eval_native(wi, wo, &mut out);
         out
     }
 
     fn symmetry(&self) -> Symmetry {
-        Measured::symmetry(&*self.0)
+        Measured::symmetry(&*self.table)
     }
+
+    /// Chooses the instruction set for itself, since it costs more than that and may be called through a pointer.
+    fn eval_lanes(&self, wi: &Lanes3, wo: &Lanes3) -> [[f32; LANES]; N] {
+        match &self.table.lanes {
+            Some(lanes) => Arch::new().dispatch(EvalLanes {
+                lanes,
+                values: &self.values,
+                wi,
+                wo,
+            }),
+            None => {
+                let mut out = [[0.0; LANES]; N];
+                for k in 0..LANES {
+                    let f = self.eval(wi.get(k).as_dvec3(), wo.get(k).as_dvec3());
+                    (0..N).for_each(|c| out[c][k] = f[c] as f32);
+                }
+                out
+            }
+        }
+    }
+}
+
+struct EvalLanes<'a, const N: usize> {
+    lanes: &'a RglLanes,
+    values: &'a LaneValues<N>,
+    wi: &'a Lanes3,
+    wo: &'a Lanes3,
+}
+
+impl<const N: usize> WithSimd for EvalLanes<'_, N> {
+    type Output = [[f32; LANES]; N];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Self::Output {
+        let min_cos = MIN_COS as f32;
+        self.lanes.eval(self.values, min_cos, self.wi, self.wo)
+    }
+}
+
+fn sample_each(table: &RglTable, wo: &Lanes3, u: &[[f32; LANES]; 2]) -> SampleLanes {
+    let mut out = SampleLanes {
+        wi: Lanes3::ZERO,
+        pdf: [0.0; LANES],
+    };
+    for k in 0..LANES {
+        let u = DVec2::new(f64::from(u[0][k]), f64::from(u[1][k]));
+        if let Some(s) = table.sample(wo.get(k).as_dvec3(), u) {
+            out.wi.set(k, s.wi.as_vec3());
+            out.pdf[k] = s.pdf as f32;
+        }
+    }
+    out
+}
+
+fn pdf_each(table: &RglTable, wi: &Lanes3, wo: &Lanes3) -> [f32; LANES] {
+    std::array::from_fn(|k| table.pdf(wi.get(k).as_dvec3(), wo.get(k).as_dvec3()) as f32)
 }

@@ -55,6 +55,22 @@ impl Warp {
         self.density.bytes() + (self.conditional.len() + self.marginal.len()) * size_of::<f64>()
     }
 
+    /// Nodes of a row and rows of a grid.
+    pub(crate) fn size(&self) -> (usize, usize) {
+        (self.density.nx(), self.density.ny())
+    }
+
+    /// Density at each node and the mass along its row up to it, slice by slice, row by row.
+    pub(crate) fn nodes(&self) -> impl Iterator<Item = (f32, f64)> {
+        let density = self.density.nodes().iter().copied();
+        density.zip(self.conditional.iter().copied())
+    }
+
+    /// Mass of all rows up to each row, slice by slice.
+    pub(crate) fn rows_below(&self) -> &[f64] {
+        &self.marginal
+    }
+
     /// Density at `u` per unit area of the square.
     pub(crate) fn pdf(&self, u: [f64; 2], slices: &Slices) -> f64 {
         self.density.blend(slices, 1, 0, self.density.place(u)) * self.cells()

@@ -77,7 +77,7 @@ impl Points {
     }
 
     /// [`Self::get2`] for [`LANES`] pairs of pixel and index at once; the same numbers.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn get2_lanes(
         &self,
@@ -109,19 +109,19 @@ impl Points {
         out
     }
 
-    #[inline]
+    #[inline(always)]
     fn independent(&self, pixel: u32, index: u32, stream: u32) -> [u32; 2] {
         let h = pcg4d([pixel, index, stream ^ self.seed[1], self.seed[0]]);
         [h[0], h[1]]
     }
 
     /// Unrelated words for a stream of a pixel.
-    #[inline]
+    #[inline(always)]
     fn seeds(&self, pixel: u32, stream: u32) -> [u32; 4] {
         pcg4d([pixel, stream, self.seed[0], self.seed[1]])
     }
 
-    #[inline]
+    #[inline(always)]
     fn sobol(&self, pixel: u32, index: u32, stream: u32) -> [u32; 2] {
         let [shuffle, x, y, _] = self.seeds(pixel, stream);
         sobol::pair(index, shuffle, [x, y])
@@ -139,19 +139,19 @@ impl Points {
 
 /// The stream of a dimension pair. Pairs and singles never share one; the difference is in the low bit, which
 /// the hash spreads best.
-#[inline]
+#[inline(always)]
 fn pair(dim: u32) -> u32 {
     dim << 1
 }
 
 /// The stream of a single dimension.
-#[inline]
+#[inline(always)]
 fn single(dim: u32) -> u32 {
     dim << 1 | 1
 }
 
 /// The top 24 bits as a number in [0, 1): every result is exact, none rounds up to 1.
-#[inline]
+#[inline(always)]
 fn unit_f32(bits: u32) -> f32 {
     (bits >> 8) as f32 * (1.0 / 16_777_216.0)
 }

@@ -7,7 +7,7 @@ use super::hash::laine_karras;
 ///
 /// The shuffle is an Owen scramble of the index, too: it maps aligned blocks of 2^k indices to aligned
 /// blocks, so their points remain a (0,k,2)-net, and decorrelates dimension pairs [Burley2020].
-#[inline]
+#[inline(always)]
 pub(super) fn pair(index: u32, shuffle: u32, scramble: [u32; 2]) -> [u32; 2] {
     let i = laine_karras(index.reverse_bits(), shuffle).reverse_bits();
     // Both coordinates bit-reversed: the first is i itself, which saves reversing it twice.
@@ -20,7 +20,7 @@ pub(super) fn pair(index: u32, shuffle: u32, scramble: [u32; 2]) -> [u32; 2] {
 ///
 /// With bit k of v as the coefficient of t^k it is the substitution t -> 1 + t, done in halves, since
 /// (1 + t)^(2^k) = 1 + t^(2^k) modulo 2 [Ahmed2024].
-#[inline]
+#[inline(always)]
 fn pascal(v: u32) -> u32 {
     let v = v ^ (v >> 16);
     let v = v ^ ((v & 0xff00_ff00) >> 8);

@@ -180,14 +180,14 @@ impl<const N: usize> Light<N> {
         }
     }
 
-    /// Density with which [`Self::sample`] from `o` chooses the point met at `t` along `d`, where `normal` is the
-    /// front normal, times the probability of the light. For environments only `d` counts.
+    /// Density with which [`Self::sample`] from `o` chooses the point met at `t` along `d`, where `normal` gives the
+    /// front normal of what is flat, times the probability of the light. For environments only `d` counts.
     #[inline]
-    pub(crate) fn pdf(&self, o: Vec3, d: Vec3, t: f32, normal: Vec3) -> f32 {
+    pub(crate) fn pdf(&self, o: Vec3, d: Vec3, t: f32, normal: impl Fn() -> Vec3) -> f32 {
         let pdf = match &self.emitter {
             Emitter::Rect(light) => light.pdf(o, t),
             Emitter::Sphere(light) => light.pdf(o),
-            Emitter::Triangles(light) => light.pdf(normal, d, t),
+            Emitter::Triangles(light) => light.pdf(normal(), d, t),
             Emitter::Image(light) => light.pdf(d),
             Emitter::Constant => 0.25 / PI,
             Emitter::Point(_) | Emitter::Directional(_) => 0.0,

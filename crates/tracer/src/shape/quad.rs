@@ -16,8 +16,9 @@ pub(crate) struct Quad {
 }
 
 impl Quad {
+    /// Distance of the hit of lane `k`, infinity for none; and whether it is on the back.
     #[inline(always)]
-    fn hit(&self, rays: &RayLanes, k: usize, id: u32) -> f32 {
+    fn hit(&self, rays: &RayLanes, k: usize, id: u32) -> (f32, bool) {
         let (n, du, dv) = (self.normal, self.dual_u, self.dual_v);
         let (rx, ry, rz) = (
             rays.o.x[k] - self.corner.x,
@@ -32,21 +33,23 @@ impl Quad {
         let v = dv.x * px + dv.y * py + dv.z * pz;
         let inside = (u.min(v) >= 0.0) & (u.max(v) <= 1.0);
         // comparisons with a NaN t (ray in the plane) are false
-        if inside & (t > 0.0) & (rays.from[k] >> 1 != id) {
-            t
-        } else {
-            f32::INFINITY
-        }
+        let met = inside & (t > 0.0) & (rays.from[k] >> 1 != id);
+        (if met { t } else { f32::INFINITY }, along > 0.0)
     }
 
     /// Shortens `hits` where this quad, primitive `id`, is nearer.
     #[inline(always)]
     pub(crate) fn closest(&self, rays: &RayLanes, id: u32, hits: &mut HitLanes) {
         for k in 0..LANES {
-            let t = self.hit(rays, k, id);
+            let (t, back) = self.hit(rays, k, id);
             let nearer = t < hits.t[k];
             hits.t[k] = if nearer { t } else { hits.t[k] };
             hits.prim[k] = if nearer { id } else { hits.prim[k] };
+            hits.back[k] = if nearer {
+                u32::from(back)
+            } else {
+                hits.back[k]
+            };
         }
     }
 
@@ -60,7 +63,7 @@ impl Quad {
         blocked: &mut [u32; LANES],
     ) {
         for k in 0..LANES {
-            let t = self.hit(rays, k, id);
+            let (t, _) = self.hit(rays, k, id);
             let hit = (t < rays.t_max[k]) & (target[k] != id);
             blocked[k] |= u32::from(hit);
         }

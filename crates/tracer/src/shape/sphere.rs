@@ -12,12 +12,12 @@ pub(crate) struct Sphere {
 }
 
 impl Sphere {
-    /// Distance of the first hit of lane `k`, infinity for none.
+    /// Distance of the first hit of lane `k`, infinity for none; and whether it is from inside.
     ///
     /// The discriminant is r^2 - |f + b d|^2, which does not cancel for small or far spheres, and the smaller
     /// root is c / q.
     #[inline(always)]
-    fn hit(&self, rays: &RayLanes, k: usize, id: u32) -> f32 {
+    fn hit(&self, rays: &RayLanes, k: usize, id: u32) -> (f32, bool) {
         let (fx, fy, fz) = (
             rays.o.x[k] - self.center.x,
             rays.o.y[k] - self.center.y,
@@ -44,21 +44,25 @@ impl Sphere {
         } else {
             foreign
         };
-        if rays.from[k] == 2 * id + 1 {
-            (2.0 * b).max(f32::MIN_POSITIVE)
-        } else {
-            t
-        }
+        let from_inside = rays.from[k] == 2 * id + 1;
+        let across = (2.0 * b).max(f32::MIN_POSITIVE);
+        let t = if from_inside { across } else { t };
+        (t, from_inside | (near <= 0.0))
     }
 
     /// Shortens `hits` where this sphere, primitive `id`, is nearer.
     #[inline(always)]
     pub(crate) fn closest(&self, rays: &RayLanes, id: u32, hits: &mut HitLanes) {
         for k in 0..LANES {
-            let t = self.hit(rays, k, id);
+            let (t, back) = self.hit(rays, k, id);
             let nearer = t < hits.t[k];
             hits.t[k] = if nearer { t } else { hits.t[k] };
             hits.prim[k] = if nearer { id } else { hits.prim[k] };
+            hits.back[k] = if nearer {
+                u32::from(back)
+            } else {
+                hits.back[k]
+            };
         }
     }
 
@@ -72,7 +76,7 @@ impl Sphere {
         blocked: &mut [u32; LANES],
     ) {
         for k in 0..LANES {
-            let t = self.hit(rays, k, id);
+            let (t, _) = self.hit(rays, k, id);
             let hit = (t < rays.t_max[k]) & (target[k] != id);
             blocked[k] |= u32::from(hit);
         }
