@@ -1,6 +1,7 @@
 //! Directions in proportion to the cosine: exact for a Lambertian surface.
 
-use brdf::{DirectionSample, DirectionSampler};
+use crate::lane_math;
+use brdf::{DirectionSample, DirectionSampler, LANES, Lanes3, SampleLanes};
 use glam::{DVec2, DVec3};
 use std::f64::consts::{FRAC_1_PI, TAU};
 
@@ -21,6 +22,26 @@ impl DirectionSampler for Cosine {
 
     fn pdf(&self, wi: DVec3, wo: DVec3) -> f64 {
         if wo.z > 0.0 { cosine_pdf(wi) } else { 0.0 }
+    }
+
+    #[inline(always)]
+    fn sample_lanes(&self, wo: &Lanes3, u: &[[f32; LANES]; 2]) -> SampleLanes {
+        let wi = lane_math::cosine_hemisphere(&u[0], &u[1]);
+        SampleLanes {
+            wi,
+            pdf: self.pdf_lanes(&wi, wo),
+        }
+    }
+
+    #[inline(always)]
+    fn pdf_lanes(&self, wi: &Lanes3, wo: &Lanes3) -> [f32; LANES] {
+        let mut out = [0.0; LANES];
+        for k in 0..LANES {
+            let above = wo.z[k] > 0.0;
+            let pdf = wi.z[k].max(0.0) * std::f32::consts::FRAC_1_PI;
+            out[k] = if above { pdf } else { 0.0 };
+        }
+        out
     }
 }
 
