@@ -1,11 +1,19 @@
 //! Cost of building samplers, of drawing directions and of densities.
+//!
+//! Sampling and densities are measured in CPU time of the thread, so that a busy machine does not show; packets run
+//! under the widest instruction set there is, as a renderer runs them.
 
 use brdf::{DirectionSampler, LANES, Lanes3, direction};
 use brdf_sampling::{Cosine, Hvt, Inversion, InversionOptions, Preset, Target, Uniform};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use glam::{DVec2, DVec3};
+use pulp::Arch;
 use sampling::Rng;
 use std::hint::black_box;
+
+mod cpu_time;
+
+use cpu_time::CpuTime;
 
 const COUNT: usize = 4096;
 
@@ -16,7 +24,34 @@ fn gloss(wi: DVec3, wo: DVec3) -> f64 {
     0.1 + 20.0 / (q * q)
 }
 
-fn samplers() -> Vec<(&'static str, Box<dyn DirectionSampler>)> {
+/// A sampler compiled for packets of the widest instruction set.
+trait Wide: DirectionSampler {
+    fn sample_all(&self, arch: Arch, packets: &[(Lanes3, Pair)]);
+    fn pdf_all(&self, arch: Arch, pairs: &[(Lanes3, Lanes3)]);
+}
+
+/// Two random numbers a lane.
+type Pair = [[f32; LANES]; 2];
+
+impl<S: DirectionSampler> Wide for S {
+    fn sample_all(&self, arch: Arch, packets: &[(Lanes3, Pair)]) {
+        arch.dispatch(|| {
+            for (wo, u) in packets {
+                black_box(self.sample_lanes(wo, u));
+            }
+        });
+    }
+
+    fn pdf_all(&self, arch: Arch, pairs: &[(Lanes3, Lanes3)]) {
+        arch.dispatch(|| {
+            for (wi, wo) in pairs {
+                black_box(self.pdf_lanes(wi, wo));
+            }
+        });
+    }
+}
+
+fn samplers() -> Vec<(&'static str, Box<dyn Wide>)> {
     let target = Target::new(&gloss);
     vec![
         ("uniform", Box::new(Uniform)),
@@ -36,7 +71,7 @@ fn samplers() -> Vec<(&'static str, Box<dyn DirectionSampler>)> {
     ]
 }
 
-fn scalar(c: &mut Criterion) {
+fn scalar(c: &mut Criterion<CpuTime>) {
     let mut rng = Rng::new(1);
     let inputs: Vec<(DVec3, DVec2)> = (0..COUNT)
         .map(|_| {
@@ -71,9 +106,9 @@ fn scalar(c: &mut Criterion) {
     group.finish();
 }
 
-fn lanes(c: &mut Criterion) {
+fn lanes(c: &mut Criterion<CpuTime>) {
     let mut rng = Rng::new(2);
-    let mut packets = Vec::new();
+    let (arch, mut packets) = (Arch::new(), Vec::new());
     for _ in 0..COUNT / LANES {
         let (mut wo, mut u) = (Lanes3::ZERO, [[0.0; LANES]; 2]);
         for k in 0..LANES {
@@ -91,9 +126,7 @@ fn lanes(c: &mut Criterion) {
     for (name, sampler) in samplers() {
         group.bench_function(format!("sample/{name}"), |b| {
             b.iter(|| {
-                for (wo, u) in &packets {
-                    black_box(sampler.sample_lanes(wo, u));
-                }
+                sampler.sample_all(arch, &packets);
             });
         });
         let pairs: Vec<_> = packets
@@ -102,9 +135,7 @@ fn lanes(c: &mut Criterion) {
             .collect();
         group.bench_function(format!("pdf/{name}"), |b| {
             b.iter(|| {
-                for (wi, wo) in &pairs {
-                    black_box(sampler.pdf_lanes(wi, wo));
-                }
+                sampler.pdf_all(arch, &pairs);
             });
         });
     }
@@ -126,5 +157,10 @@ fn build(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, scalar, lanes, build);
-criterion_main!(benches);
+criterion_group! {
+    name = cost;
+    config = Criterion::default().with_measurement(CpuTime);
+    targets = scalar, lanes
+}
+criterion_group!(building, build);
+criterion_main!(cost, building);

@@ -1,5 +1,6 @@
 //! Directions in proportion to the cosine: exact for a Lambertian surface.
 
+use crate::lane_math;
 use brdf::{DirectionSample, DirectionSampler, LANES, Lanes3, SampleLanes};
 use glam::{DVec2, DVec3};
 use std::f64::consts::{FRAC_1_PI, TAU};
@@ -25,43 +26,23 @@ impl DirectionSampler for Cosine {
 
     #[inline(always)]
     fn sample_lanes(&self, wo: &Lanes3, u: &[[f32; LANES]; 2]) -> SampleLanes {
-        let mut wi = Lanes3::ZERO;
-        for k in 0..LANES {
-            let r = u[0][k].max(0.0).sqrt();
-            let (sin, cos) = sin_cos_turn(u[1][k]);
-            wi.x[k] = r * cos;
-            wi.y[k] = r * sin;
-            wi.z[k] = (1.0 - u[0][k]).max(0.0).sqrt().max(MIN_COS as f32);
-        }
+        let wi = lane_math::cosine_hemisphere(&u[0], &u[1]);
         SampleLanes {
-            pdf: self.pdf_lanes(&wi, wo),
             wi,
+            pdf: self.pdf_lanes(&wi, wo),
         }
     }
 
     #[inline(always)]
     fn pdf_lanes(&self, wi: &Lanes3, wo: &Lanes3) -> [f32; LANES] {
-        std::array::from_fn(|k| {
+        let mut out = [0.0; LANES];
+        for k in 0..LANES {
+            let above = wo.z[k] > 0.0;
             let pdf = wi.z[k].max(0.0) * std::f32::consts::FRAC_1_PI;
-            if wo.z[k] > 0.0 { pdf } else { 0.0 }
-        })
+            out[k] = if above { pdf } else { 0.0 };
+        }
+        out
     }
-}
-
-/// Sine and cosine of 2 pi u for u in [0, 1]; absolute error below 3e-7, without a call.
-#[inline(always)]
-fn sin_cos_turn(u: f32) -> (f32, f32) {
-    // the nearest quarter turn, and Taylor polynomials over the eighth on either side
-    let q = (4.0 * u + 0.5) as i32;
-    let x = std::f32::consts::TAU * (u - 0.25 * q as f32);
-    let z = x * x;
-    let s =
-        x + x * z * (-1.666_666_6e-1 + z * (8.333_332e-3 + z * (-1.984_087_5e-4 + z * 2.752_5e-6)));
-    let c = 1.0 + z * (-0.5 + z * (4.166_666_6e-2 + z * (-1.388_888_6e-3 + z * 2.476_9e-5)));
-    let (s, c) = if q & 1 == 1 { (c, s) } else { (s, c) };
-    let s = if q & 2 == 2 { -s } else { s };
-    let c = if (q + 1) & 2 == 2 { -c } else { c };
-    (s, c)
 }
 
 /// The lowest cosine a sampler returns: keeps densities proportional to it positive.
@@ -82,20 +63,9 @@ pub(crate) fn cosine_pdf(wi: DVec3) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Cosine, sin_cos_turn};
+    use super::Cosine;
     use brdf::{DirectionSampler, LANES, Lanes3};
     use glam::{DVec2, Vec3};
-
-    #[test]
-    fn sine_and_cosine_of_a_turn() {
-        for k in 0..=100_000 {
-            let u = k as f32 / 100_000.0;
-            let (s, c) = sin_cos_turn(u);
-            let (es, ec) = (std::f64::consts::TAU * f64::from(u)).sin_cos();
-            let error = (f64::from(s) - es).abs().max((f64::from(c) - ec).abs());
-            assert!(error < 3e-7, "at {u}: off by {error:e}");
-        }
-    }
 
     #[test]
     fn packets_agree_with_the_scalar_form() {

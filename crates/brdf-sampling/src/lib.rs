@@ -19,6 +19,7 @@ mod dictionary;
 mod hvt;
 mod inversion;
 mod known_grid;
+mod lane_math;
 mod pseudo_log;
 mod rejection;
 mod rejection_cache;

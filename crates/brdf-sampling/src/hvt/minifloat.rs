@@ -12,6 +12,12 @@ pub(crate) fn decode(q: u8) -> f32 {
     f32::from_bits((u32::from(q) << 19) + 0x3f80_0000)
 }
 
+/// The value of the lowest byte of `word`.
+#[inline(always)]
+pub(crate) fn decode_low_byte(word: u32) -> f32 {
+    f32::from_bits(((word & 0xff) << 19) + 0x3f80_0000)
+}
+
 /// The byte nearest to `value`, which is clamped to [1, [`MAX`]].
 pub(crate) fn encode(value: f64) -> u8 {
     let clamped = value.clamp(1.0, MAX) as f32;

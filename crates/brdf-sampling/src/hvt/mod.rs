@@ -5,6 +5,8 @@
 //! the reflectance but the solution of a convex problem: least variance ([`problem`], [`optimise`]). Nodes are
 //! stored in a byte ([`minifloat`]); sampling is by marginal and conditional inversion ([`table`]).
 
+mod lane_chart;
+mod lane_table;
 mod lanes;
 mod minifloat;
 mod optimise;
@@ -211,12 +213,12 @@ impl DirectionSampler for Hvt {
         self.table.bytes()
     }
 
-    #[inline]
+    #[inline(always)]
     fn sample_lanes(&self, wo: &Lanes3, u: &[[f32; LANES]; 2]) -> SampleLanes {
         lanes::sample(&self.table, self.r0 as f32, wo, u)
     }
 
-    #[inline]
+    #[inline(always)]
     fn pdf_lanes(&self, wi: &Lanes3, wo: &Lanes3) -> [f32; LANES] {
         lanes::pdf(&self.table, self.r0 as f32, wi, wo)
     }

@@ -11,12 +11,16 @@ use super::shape::Shape;
 #[derive(Clone, Debug)]
 pub(crate) struct Table {
     pub(crate) shape: Shape,
+    /// Slice after slice, rows of constant a; then [`PADDING`].
     nodes: Vec<u8>,
-    scale: Vec<f32>,
+    pub(crate) scale: Vec<f32>,
     pub(crate) lobe: Vec<f32>,
     /// Mass of the slice below row i, f32, `n_a` entries a slice.
     below: Vec<f32>,
 }
+
+/// Bytes after the last node, so that words of four may be read anywhere.
+const PADDING: usize = 3;
 
 /// A place between two slices.
 #[derive(Clone, Copy, Debug)]
@@ -62,11 +66,24 @@ impl Table {
                 }
             }
         }
+        table.nodes.resize(shape.nodes() + PADDING, 0);
         table
     }
 
+    /// The nodes as stored, and a few bytes more.
+    #[inline(always)]
+    pub(crate) fn nodes(&self) -> &[u8] {
+        &self.nodes
+    }
+
+    /// Mass of each slice below its rows, `n_a` entries a slice.
+    #[inline(always)]
+    pub(crate) fn below(&self) -> &[f32] {
+        &self.below
+    }
+
     pub(crate) fn bytes(&self) -> usize {
-        self.nodes.len()
+        self.shape.nodes()
             + size_of::<f32>() * (self.scale.len() + self.lobe.len() + self.below.len())
     }
 
@@ -172,8 +189,8 @@ fn split(x: f32, n: usize) -> (usize, f32) {
 
 /// The point of [0, 1] at which a density linear from `r0` to `r1` holds the fraction `y` of its mass. The
 /// quadratic is solved in the form without cancellation.
-#[inline]
-fn linear(r0: f32, r1: f32, y: f32) -> f32 {
+#[inline(always)]
+pub(crate) fn linear(r0: f32, r1: f32, y: f32) -> f32 {
     let y = y * (r0 + r1);
     (y / (r0 + (r0 * r0 + (r1 - r0) * y).max(0.0).sqrt())).min(1.0)
 }

@@ -10,18 +10,23 @@ use brdf_sampling::{
 /// A sampler with a name; names begin with the type's.
 pub(crate) struct Entry {
     pub(crate) name: &'static str,
-    pub(crate) build: fn(&Case) -> Box<dyn DirectionSampler>,
+    /// `None` where the sampler does not go with the case.
+    pub(crate) build: fn(&Case) -> Option<Box<dyn DirectionSampler>>,
+    /// Looks at the target some 10^6 times, or in every call of `pdf`.
+    pub(crate) evaluates_often: bool,
 }
 
 /// All of them. The test `every_sampler_is_listed` compares the names with the source.
 pub(crate) const ALL: &[Entry] = &[
     Entry {
         name: "Uniform",
-        build: |_| Box::new(Uniform),
+        build: |_| Some(Box::new(Uniform)),
+        evaluates_often: false,
     },
     Entry {
         name: "Cosine",
-        build: |_| Box::new(Cosine),
+        build: |_| Some(Box::new(Cosine)),
+        evaluates_often: false,
     },
     Entry {
         name: "Inversion",
@@ -33,34 +38,54 @@ pub(crate) const ALL: &[Entry] = &[
                 n_b: 12,
                 ..InversionOptions::default()
             };
-            Box::new(Inversion::new(target(case), options))
+            Some(Box::new(Inversion::new(target(case), options)))
         },
+        evaluates_often: false,
     },
     Entry {
         name: "Hvt tiny",
-        build: |case| Box::new(Hvt::new(target(case), Preset::Tiny.options())),
+        build: |case| Some(Box::new(Hvt::new(target(case), Preset::Tiny.options()))),
+        evaluates_often: false,
     },
     Entry {
         name: "Hvt default",
-        build: |case| Box::new(Hvt::new(target(case), Preset::Default.options())),
+        build: |case| Some(Box::new(Hvt::new(target(case), Preset::Default.options()))),
+        evaluates_often: false,
     },
     Entry {
         name: "Dictionary",
-        build: |case| Box::new(Dictionary::new(target(case))),
+        build: |case| Some(Box::new(Dictionary::new(target(case)))),
+        evaluates_often: false,
     },
     Entry {
         name: "Dictionary single",
-        build: |case| Box::new(Dictionary::single(target(case))),
+        build: |case| Some(Box::new(Dictionary::single(target(case)))),
+        evaluates_often: false,
     },
     Entry {
         name: "Rejection uniform",
-        build: |case| Box::new(rejection(case, Proposal::Uniform)),
+        build: |case| Some(Box::new(rejection(case, Proposal::Uniform))),
+        evaluates_often: true,
     },
     Entry {
         name: "Rejection cosine",
-        build: |case| Box::new(rejection(case, Proposal::Cosine)),
+        build: |case| Some(Box::new(rejection(case, Proposal::Cosine))),
+        evaluates_often: true,
+    },
+    Entry {
+        name: "RglTable",
+        build: |case| {
+            let own = case.own.clone()?;
+            Some(Box::new(own))
+        },
+        evaluates_often: false,
     },
 ];
+
+/// Samplers that may decline: lobes, and visible normals, reach below the horizon.
+pub(crate) fn may_waste(name: &str) -> bool {
+    name.starts_with("Dictionary") || name.starts_with("RglTable")
+}
 
 pub(crate) fn target(case: &Case) -> Target<'_> {
     Target {

@@ -1,6 +1,6 @@
 //! Reflectances that are hard to sample, each in its own way.
 
-use brdf::Symmetry;
+use brdf::{DirectionSampler, Symmetry};
 use brdf_sampling::SharedTarget;
 use glam::DVec3;
 use std::f64::consts::FRAC_1_PI;
@@ -12,14 +12,20 @@ pub(crate) struct Case {
     pub(crate) name: &'static str,
     pub(crate) f: SharedTarget,
     pub(crate) symmetry: Symmetry,
+    /// The sampler the table's file brings along.
+    pub(crate) own: Option<Arc<dyn DirectionSampler>>,
 }
 
 impl Case {
-    fn new(name: &'static str, f: impl Fn(DVec3, DVec3) -> f64 + Send + Sync + 'static) -> Self {
+    pub(crate) fn new(
+        name: &'static str,
+        f: impl Fn(DVec3, DVec3) -> f64 + Send + Sync + 'static,
+    ) -> Self {
         Self {
             name,
             f: Arc::new(f),
             symmetry: Symmetry::FULL,
+            own: None,
         }
     }
 }

@@ -1,18 +1,19 @@
-//! Samplers with one mistake each: the tests must find every one of them.
+//! Samplers with one mistake each: the tests must find every one of them, in every kind.
 
-use crate::samplers::target;
-use crate::{chi_square, targets, viewer};
+use crate::samplers::{ALL, target};
+use crate::targets::Case;
+use crate::{chi_square, table_kinds, targets, viewer};
 use brdf::{DirectionSample, DirectionSampler};
-use brdf_sampling::{Cosine, Inversion, InversionOptions, Uniform};
+use brdf_sampling::{Cosine, Uniform};
 use glam::{DVec2, DVec3};
 
 /// `inner` with its density or its samples spoilt.
-struct Wrong<S> {
-    inner: S,
+struct Wrong<'a> {
+    inner: &'a dyn DirectionSampler,
     mistake: Mistake,
 }
 
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 enum Mistake {
     /// The density of the neighbouring slice.
     SliceOffByOne,
@@ -22,9 +23,13 @@ enum Mistake {
     Mirrored,
     /// The cosine forgotten.
     NoCosine,
+    /// A cosine too many.
+    ExtraCosine,
+    /// The density off by a constant: the thesis' f for f / int f.
+    Unnormalised,
 }
 
-impl<S: DirectionSampler> DirectionSampler for Wrong<S> {
+impl DirectionSampler for Wrong<'_> {
     fn sample(&self, wo: DVec3, u: DVec2) -> Option<DirectionSample> {
         let mut s = self.inner.sample(wo, u)?;
         if let Mistake::Mirrored = self.mistake {
@@ -47,40 +52,106 @@ impl<S: DirectionSampler> DirectionSampler for Wrong<S> {
             }
             Mistake::Mirrored => self.inner.pdf(wi, wo),
             Mistake::NoCosine => Uniform.pdf(wi, wo),
+            Mistake::ExtraCosine => Cosine.pdf(wi, wo),
+            Mistake::Unnormalised => 0.9 * self.inner.pdf(wi, wo),
         }
     }
 }
 
-fn found_out(inner: impl DirectionSampler, mistake: Mistake) -> bool {
-    let wrong = Wrong { inner, mistake };
-    !chi_square(&wrong, viewer(33.3), 6_000, 5).ok
+/// At least one mistake for every kind of sampler, the one its code is most likely to make.
+const MISTAKES: &[(&str, &[Mistake])] = &[
+    ("Uniform", &[Mistake::ExtraCosine]),
+    ("Cosine", &[Mistake::NoCosine]),
+    (
+        "Rejection cosine",
+        &[Mistake::Unnormalised, Mistake::SliceOffByOne],
+    ),
+    (
+        "Inversion",
+        &[
+            Mistake::SliceOffByOne,
+            Mistake::NoJacobian,
+            Mistake::Mirrored,
+        ],
+    ),
+    (
+        "Hvt tiny",
+        &[
+            Mistake::SliceOffByOne,
+            Mistake::NoJacobian,
+            Mistake::Mirrored,
+        ],
+    ),
+    (
+        "Dictionary",
+        &[
+            Mistake::SliceOffByOne,
+            Mistake::NoJacobian,
+            Mistake::Unnormalised,
+        ],
+    ),
+    (
+        "RglTable",
+        &[
+            Mistake::NoJacobian,
+            Mistake::Mirrored,
+            Mistake::Unnormalised,
+        ],
+    ),
+];
+
+/// What the kind is built for: RGL's own sampling needs its table.
+fn case_for(name: &str) -> Case {
+    if name == "RglTable" {
+        let kind = table_kinds::TABLES.iter().find(|t| t.name == name);
+        return kind.unwrap().build();
+    }
+    let mut cases = targets::all();
+    cases.retain(|c| c.name == "spiky");
+    cases.remove(0)
+}
+
+#[test]
+fn every_kind_of_sampler_has_a_mistake() {
+    for entry in ALL {
+        let kind = entry.name.split(' ').next();
+        let found = MISTAKES.iter().any(|(n, _)| n.split(' ').next() == kind);
+        assert!(found, "{} has no wrong variant", entry.name);
+    }
 }
 
 #[test]
 fn every_mistake_is_found_out() {
-    let cases = targets::all();
-    let spiky = cases.iter().find(|c| c.name == "spiky").unwrap();
-    let options = InversionOptions {
-        n_theta: 16,
-        n_a: 24,
-        n_b: 12,
-        ..InversionOptions::default()
-    };
-    let inversion = Inversion::new(target(spiky), options);
-    let right = chi_square(&inversion, viewer(33.3), 6_000, 5);
-    assert!(right.ok, "the unspoilt sampler passes: {right}");
-    for (name, mistake) in [
-        ("slice", Mistake::SliceOffByOne),
-        ("Jacobian", Mistake::NoJacobian),
-        ("mirror", Mistake::Mirrored),
-    ] {
-        assert!(
-            found_out(inversion.clone(), mistake),
-            "{name} went unnoticed"
-        );
+    for (name, mistakes) in MISTAKES {
+        let entry = ALL.iter().find(|e| e.name == *name).unwrap();
+        let sampler = (entry.build)(&case_for(name)).unwrap();
+        let run = |s: &dyn DirectionSampler| chi_square(s, viewer(33.3), 6_000, 20);
+        let right = run(&*sampler);
+        assert!(right.ok, "{name} unspoilt passes: {right}");
+        for &mistake in *mistakes {
+            let wrong = Wrong {
+                inner: &*sampler,
+                mistake,
+            };
+            assert!(!run(&wrong).ok, "{name}: {mistake:?} went unnoticed");
+        }
     }
-    assert!(
-        found_out(Cosine, Mistake::NoCosine),
-        "cosine went unnoticed"
-    );
+}
+
+/// The furnace sees a wrong constant as well: weights are too large by it.
+#[test]
+fn a_wrong_albedo_is_found_out() {
+    let case = &case_for("Cosine");
+    let target = target(case);
+    let right = brdf_sampling::relative_variance(target, &Cosine, 33.3, 20_000);
+    let mut sum = 0.0;
+    let mut rng = testkit::Rng::new(5);
+    let wo = brdf::direction(33.3_f64.to_radians(), 0.0);
+    for _ in 0..20_000 {
+        let s = Cosine.sample(wo, DVec2::from(rng.uniform2())).unwrap();
+        sum += target.f_cos(s.wi, wo) / (0.9 * s.pdf);
+    }
+    let std_error = right.albedo * (right.value / 20_000.0).sqrt();
+    let verdict = testkit::z_test(sum / 20_000.0, std_error, right.albedo);
+    assert!(verdict.p_value < 1e-3, "{verdict:?}");
 }
