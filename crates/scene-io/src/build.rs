@@ -114,6 +114,7 @@ fn settings(file: &SceneFile) -> Settings {
         spp: file.render.spp,
         seed: file.render.seed,
         max_depth: file.render.depth,
+        roulette: file.render.roulette,
         points: match file.render.points {
             PointsName::Sobol => PointSet::Sobol,
             PointsName::Halton => PointSet::Halton,

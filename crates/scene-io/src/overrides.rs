@@ -47,6 +47,8 @@ impl MaterialSpec {
             path: PathBuf::from(text),
             interpolation: None,
             negatives: None,
+            gap: None,
+            beyond: None,
             scale: None,
             sampler: None,
             home: PathBuf::new(),

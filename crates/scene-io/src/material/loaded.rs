@@ -3,8 +3,7 @@
 use brdf::Measured;
 use brdf_formats::Format;
 use brdf_table::scattered::FillReport;
-use brdf_table::{CellReport, Gridded, HalfDiffTable};
-use brdf_table::{RglTable, ThinPlate};
+use brdf_table::{CellReport, Gridded, HalfDiffTable, Policies, RglTable, ThinPlate};
 use std::fmt;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -64,11 +63,86 @@ pub(super) enum Form {
     ThinPlate(Arc<ThinPlate>),
     /// With the hash of its file.
     Rgl(Arc<RglTable>, u64),
-    /// Only ever asked through `measured`.
-    Opaque,
+    /// Only ever asked through `measured`; with the hash of file and choices.
+    Opaque(u64),
+}
+
+impl Detail {
+    /// What the policies found and did, one line each; nothing where there was nothing to do.
+    #[must_use]
+    pub fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        match self {
+            Self::Grid { cells, .. } => {
+                let missing = cells.cells - cells.measured;
+                if missing > 0 {
+                    notes.push(format!(
+                        "{missing} of {} cells were not measured and are filled",
+                        cells.cells
+                    ));
+                }
+                if cells.clamped_channels > 0 {
+                    notes.push(format!(
+                        "{} negative values became 0",
+                        cells.clamped_channels
+                    ));
+                }
+            }
+            Self::Scattered { rows, fill } => fill_notes(*rows, fill, &mut notes),
+            Self::Rgl { .. } => {}
+            Self::Rows {
+                rows,
+                negative_values,
+            } => notes.push(format!("{rows} rows, {negative_values} negative values")),
+        }
+        notes
+    }
+}
+
+fn fill_notes(rows: usize, fill: &FillReport, notes: &mut Vec<String>) {
+    let negatives: usize = fill.negatives.iter().sum();
+    notes.push(format!("{rows} rows, {negatives} negative values"));
+    let Policies {
+        negative,
+        beyond,
+        gap,
+        dead,
+    } = fill.policies;
+    notes.push(format!(
+        "policies: negatives {negative:?}, gap {gap:?}, beyond {beyond:?}, dead rows {dead:?}"
+    ));
+    if !fill.isolated.is_empty() {
+        notes.push(format!(
+            "{} rows contradict all their neighbours and answer at their own angles only",
+            fill.isolated.len()
+        ));
+    }
+    if fill.merged > 0 {
+        notes.push(format!(
+            "{} rows are averaged with others at the same angles",
+            fill.merged
+        ));
+    }
+    if fill.below_horizon > 0 {
+        notes.push(format!(
+            "{} rows at or below the horizon are left out",
+            fill.below_horizon
+        ));
+    }
+    notes.push(format!(
+        "beyond the rows {:.0} % of the rise is kept, largest albedo {:.3}",
+        100.0 * fill.growth,
+        fill.albedo_beyond
+    ));
 }
 
 impl LoadedMeasured {
+    /// What the policies found and did; see [`Detail::notes`].
+    #[must_use]
+    pub fn notes(&self) -> Vec<String> {
+        self.detail.notes()
+    }
+
     /// The table itself, if the file is one.
     #[must_use]
     pub fn table(&self) -> Option<&Arc<HalfDiffTable>> {

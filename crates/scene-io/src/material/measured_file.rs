@@ -1,18 +1,18 @@
 //! Measured files: bytes to [`LoadedMeasured`].
 
+use super::identity::Identity;
 use super::loaded::{Detail, Form, LoadedMeasured};
 use super::options::MaterialOptions;
-use crate::error::{Error, ErrorKind};
+use super::scattered;
+use crate::error::{Error, ErrorKind, os_message};
 use crate::load;
 use crate::scene::{InterpolationName, NegativeName};
 use crate::sealed::content_hash;
 use brdf::Measured;
-use brdf_formats::{File, Format, MERL_SCALE, MerlStream, PREFIX};
-use brdf_table::{CellPolicy, Gridded, Interpolation, PhiDomain, RglTable, TableBuilder};
-use brdf_table::{LayerMode, LayeredTable, NegativePolicy, Policies, SampleCloud, ThinPlate};
-use spectrum::{Basis, RgbSpace};
+use brdf_formats::{File, Format, MerlStream, PREFIX, RglFile};
+use brdf_table::{CellPolicy, GridError, Gridded, HalfDiffTable, Interpolation, RglTable};
 use std::io::{Chain, Cursor, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Reads any known measured file, whatever it is called.
@@ -20,24 +20,18 @@ use std::sync::Arc;
 /// MERL files are decoded while they are read: at no time is there more than the table and a small buffer.
 ///
 /// # Errors
-/// Unreadable files, unknown formats, broken content, an interpolation that does not go with the format.
+/// Unreadable files, unknown formats, broken content, an interpolation or policy that does not go with the format.
 pub fn load_measured(path: &Path, options: &MaterialOptions) -> Result<LoadedMeasured, Error> {
-    let (mut file, length) = load::open(path, load::MAX_FILE_BYTES)?;
-    let mut prefix = Vec::new();
-    file.by_ref()
-        .take(PREFIX as u64)
-        .read_to_end(&mut prefix)
-        .map_err(|e| {
-            let message = format!("cannot read: {}", crate::error::os_message(&e));
-            Error::new(ErrorKind::Read, message).in_file(path)
-        })?;
-    let source = Cursor::new(prefix).chain(file);
-    from_source(source, length, options)
+    let load = || match Content::open(path)? {
+        Content::Merl { format, source, of } => merl((format, of), source, options),
+        Content::Parsed { file, of } => parsed(&file, of, options),
+    };
+    load()
         .map(|loaded| LoadedMeasured {
             path: path.to_owned(),
             ..loaded
         })
-        .map_err(|e| e.in_file(path))
+        .map_err(|e: Error| e.in_file(path))
 }
 
 /// [`load_measured`] from memory; names no path.
@@ -48,71 +42,104 @@ pub(crate) fn measured_from_bytes(
     bytes: &[u8],
     options: &MaterialOptions,
 ) -> Result<LoadedMeasured, Error> {
-    let (prefix, rest) = bytes.split_at(bytes.len().min(PREFIX));
-    let source = Cursor::new(prefix.to_vec()).chain(rest);
-    from_source(source, bytes.len() as u64, options)
-}
-
-fn from_source(
-    source: Chain<Cursor<Vec<u8>>, impl Read>,
-    length: u64,
-    options: &MaterialOptions,
-) -> Result<LoadedMeasured, Error> {
-    match brdf_formats::detect_prefix(source.get_ref().0.get_ref(), length) {
-        Some(format) if format.name == "merl" => merl(format, source, length, options),
-        _ => {
-            let mut bytes = Vec::with_capacity(usize::try_from(length).unwrap_or(0));
-            let mut source = source.take(length);
-            source.read_to_end(&mut bytes).map_err(|e| {
-                let message = format!("cannot read: {}", crate::error::os_message(&e));
-                Error::new(ErrorKind::Read, message)
-            })?;
-            let key = content_hash(&bytes);
-            let file = brdf_formats::read(bytes).map_err(broken)?;
-            parsed(&file, (length, key), options)
-        }
+    let of = Origin {
+        bytes: bytes.len() as u64,
+        key: content_hash(bytes),
+    };
+    match brdf_formats::detect(bytes) {
+        Some(format) if format.name == "merl" => merl((format, of), bytes, options),
+        _ => parsed(
+            &brdf_formats::read(bytes.to_vec()).map_err(broken)?,
+            of,
+            options,
+        ),
     }
 }
 
-fn parsed(
-    file: &File,
-    (length, key): (u64, u64),
-    options: &MaterialOptions,
-) -> Result<LoadedMeasured, Error> {
-    let format = file.format();
-    let invalid = |e: brdf_table::CloudError| Error::invalid(e.to_string());
+/// What a file is and holds, without making an interpolant: scattered rows are counted, nothing is solved for them.
+///
+/// # Errors
+/// Unreadable files, unknown formats, broken content.
+pub fn identify(path: &Path) -> Result<Identity, Error> {
+    let options = MaterialOptions::default();
+    let identify = || match Content::open(path)? {
+        Content::Merl { format, source, of } => {
+            merl((format, of), source, &options).map(Identity::of)
+        }
+        Content::Parsed { file, of } => match scattered::cloud(&file) {
+            Some(cloud) => Ok(Identity::of_rows(file.format(), of.bytes, &cloud?)),
+            None => parsed(&file, of, &options).map(Identity::of),
+        },
+    };
+    identify()
+        .map(|identity| Identity {
+            path: path.to_owned(),
+            ..identity
+        })
+        .map_err(|e: Error| e.in_file(path))
+}
+
+/// What tells one file from another.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Origin {
+    /// Its size.
+    pub(super) bytes: u64,
+    /// The hash of its content; 0 where the content is a table that is hashed by its cells.
+    pub(super) key: u64,
+}
+
+/// A file, as far as it is read before the options matter.
+enum Content {
+    /// Still to be decoded.
+    Merl {
+        format: &'static Format,
+        source: Chain<Cursor<Vec<u8>>, std::fs::File>,
+        of: Origin,
+    },
+    Parsed {
+        file: File,
+        of: Origin,
+    },
+}
+
+impl Content {
+    fn open(path: &Path) -> Result<Self, Error> {
+        let refuse = |e: std::io::Error| {
+            let message = format!("cannot read: {}", os_message(&e));
+            Error::new(ErrorKind::Read, message)
+        };
+        let (mut file, bytes) = load::open(path, load::MAX_FILE_BYTES)?;
+        let mut prefix = Vec::new();
+        (file.by_ref().take(PREFIX as u64).read_to_end(&mut prefix)).map_err(refuse)?;
+        let found = brdf_formats::detect_prefix(&prefix, bytes);
+        let source = Cursor::new(prefix).chain(file);
+        if let Some(format) = found.filter(|f| f.name == "merl") {
+            let of = Origin { bytes, key: 0 };
+            return Ok(Self::Merl { format, source, of });
+        }
+        let mut content = Vec::with_capacity(usize::try_from(bytes).unwrap_or(0));
+        (source.take(bytes).read_to_end(&mut content)).map_err(refuse)?;
+        let key = content_hash(&content);
+        let file = brdf_formats::read(content).map_err(broken)?;
+        let of = Origin { bytes, key };
+        Ok(Self::Parsed { file, of })
+    }
+}
+
+fn parsed(file: &File, of: Origin, options: &MaterialOptions) -> Result<LoadedMeasured, Error> {
+    if let Some(cloud) = scattered::cloud(file) {
+        return scattered::load(file.format(), of, &cloud?, options);
+    }
     match file {
-        File::Astm(astm) => {
-            let cloud = SampleCloud::from_astm(astm).map_err(invalid)?;
-            scattered(format, &cloud, length, options)
-        }
-        File::PbrtText(text) => {
-            let cloud = SampleCloud::from_pbrt_text(text).map_err(invalid)?;
-            scattered(format, &cloud, length, options)
-        }
-        File::Merl(merl_file) => merl(format, Cursor::new(merl_file.to_bytes()), length, options),
-        File::Rgl(rgl) => {
-            if !matches!(
-                options.interpolation,
-                InterpolationName::Auto | InterpolationName::Linear
-            ) {
-                return Err(misplaced(options.interpolation));
-            }
-            let table = Arc::new(RglTable::new(rgl).map_err(broken)?);
-            Ok(LoadedMeasured {
-                measured: Arc::clone(&table) as Arc<dyn Measured>,
-                format,
-                path: Default::default(),
-                bytes: length,
-                detail: Detail::Rgl {
-                    description: rgl.description(),
-                },
-                form: Form::Rgl(table, key),
-            })
-        }
+        File::Merl(merl_file) => merl(
+            (file.format(), of),
+            Cursor::new(merl_file.to_bytes()),
+            options,
+        ),
+        File::Rgl(file_rgl) => rgl((file.format(), of), file_rgl, options),
         _ => Err(Error::unsupported(format!(
             "{} files are read but cannot be rendered yet",
-            format.title
+            file.format().title
         ))),
     }
 }
@@ -128,9 +155,8 @@ fn broken(e: brdf_formats::Error) -> Error {
 }
 
 fn merl(
-    format: &'static Format,
+    (format, of): (&'static Format, Origin),
     source: impl Read,
-    length: u64,
     options: &MaterialOptions,
 ) -> Result<LoadedMeasured, Error> {
     let interpolation = match options.interpolation {
@@ -138,29 +164,21 @@ fn merl(
         InterpolationName::Nearest => Interpolation::Nearest,
         other => return Err(misplaced(other)),
     };
+    no_gaps(options)?;
     let policy = match options.negatives {
         NegativeName::Auto => CellPolicy::default(),
         NegativeName::Clamp => CellPolicy::PerChannel,
         NegativeName::Keep => CellPolicy::AllNegative,
     };
-    let mut stream = MerlStream::new(source, length).map_err(broken)?;
-    let dims = stream.dims().map(|n| n as usize);
-    // 360 azimuths instead of 180 cover the full circle: such tables need not be reciprocal.
-    let phi = if dims[2] > 180 {
-        PhiDomain::Full
-    } else {
-        PhiDomain::Reciprocal
-    };
-    let invalid = |e: brdf_table::GridError| Error::invalid(e.to_string());
-    let basis = Basis::Rgb(RgbSpace::srgb());
-    let mut builder = TableBuilder::new(dims, phi, basis, MERL_SCALE.to_vec()).map_err(invalid)?;
-    while let Some(values) = stream.next_chunk().map_err(broken)? {
-        builder.push(values).map_err(invalid)?;
-    }
-    let (table, cells) = builder.finish(policy).map_err(invalid)?;
+    let stream = MerlStream::new(source, of.bytes).map_err(broken)?;
+    let (table, cells) = HalfDiffTable::from_merl_stream(stream, policy).map_err(|e| match e {
+        GridError::File(e) => broken(e),
+        other => Error::invalid(other.to_string()),
+    })?;
     if cells.measured == 0 {
         return Err(Error::invalid("expected measured cells, found none"));
     }
+    let dims = table.dims();
     let gridded = Gridded {
         table: Arc::new(table),
         interpolation,
@@ -168,71 +186,58 @@ fn merl(
     Ok(LoadedMeasured {
         measured: Arc::new(gridded.clone()),
         format,
-        path: Default::default(),
-        bytes: length,
+        path: PathBuf::new(),
+        bytes: of.bytes,
         detail: Detail::Grid { dims, cells },
         form: Form::Grid(gridded),
     })
+}
+
+fn rgl(
+    (format, of): (&'static Format, Origin),
+    file: &RglFile,
+    options: &MaterialOptions,
+) -> Result<LoadedMeasured, Error> {
+    if !matches!(
+        options.interpolation,
+        InterpolationName::Auto | InterpolationName::Linear
+    ) {
+        return Err(misplaced(options.interpolation));
+    }
+    no_gaps(options)?;
+    if options.negatives == NegativeName::Clamp {
+        let message = "expected \"auto\" or \"keep\" for an RGL file, found \"clamp\"";
+        return Err(Error::invalid(message).in_field("negatives"));
+    }
+    let table = Arc::new(RglTable::new(file).map_err(broken)?);
+    Ok(LoadedMeasured {
+        measured: Arc::clone(&table) as Arc<dyn Measured>,
+        format,
+        path: PathBuf::new(),
+        bytes: of.bytes,
+        detail: Detail::Rgl {
+            description: file.description(),
+        },
+        form: Form::Rgl(table, of.key),
+    })
+}
+
+/// The cells of a grid leave nothing open that these policies could decide.
+fn no_gaps(options: &MaterialOptions) -> Result<(), Error> {
+    let refuse = |field: &str, found: &str| {
+        let message =
+            format!("expected scattered measurements for this policy (\"{found}\"), found a grid");
+        Err(Error::invalid(message).in_field(field))
+    };
+    match (options.gap, options.beyond) {
+        (Some(name), _) => refuse("gap", name.name()),
+        (_, Some(name)) => refuse("beyond", name.name()),
+        _ => Ok(()),
+    }
 }
 
 fn misplaced(name: InterpolationName) -> Error {
     Error::invalid(format!(
         "expected an interpolation that goes with this format (nearest or linear for grids, linear for RGL), found \"{name}\""
     ))
-}
-
-fn scattered(
-    format: &'static Format,
-    cloud: &SampleCloud,
-    length: u64,
-    options: &MaterialOptions,
-) -> Result<LoadedMeasured, Error> {
-    let mode = match options.interpolation {
-        InterpolationName::Auto | InterpolationName::ThinPlate => {
-            return thin_plate(format, cloud, length, options.negatives);
-        }
-        InterpolationName::Nearest => LayerMode::Nearest,
-        InterpolationName::Linear => LayerMode::Linear,
-        InterpolationName::SquaredLambda => LayerMode::SquaredLambda,
-    };
-    Ok(LoadedMeasured {
-        measured: Arc::new(LayeredTable::new(cloud, mode)) as Arc<dyn Measured>,
-        format,
-        path: Default::default(),
-        bytes: length,
-        detail: Detail::Rows {
-            rows: cloud.len(),
-            negative_values: cloud.negatives().iter().sum(),
-        },
-        form: Form::Opaque,
-    })
-}
-
-fn thin_plate(
-    format: &'static Format,
-    cloud: &SampleCloud,
-    length: u64,
-    negatives: NegativeName,
-) -> Result<LoadedMeasured, Error> {
-    let policies = Policies {
-        negative: match negatives {
-            NegativeName::Auto | NegativeName::Keep => NegativePolicy::Keep,
-            NegativeName::Clamp => NegativePolicy::Clamp,
-        },
-        ..Policies::default()
-    };
-    let plate = ThinPlate::with_policies(cloud, policies)
-        .map(Arc::new)
-        .map_err(|e| Error::invalid(e.to_string()))?;
-    Ok(LoadedMeasured {
-        measured: Arc::clone(&plate) as Arc<dyn Measured>,
-        format,
-        path: Default::default(),
-        bytes: length,
-        detail: Detail::Scattered {
-            rows: cloud.len(),
-            fill: Box::new(plate.report()),
-        },
-        form: Form::ThinPlate(plate),
-    })
 }

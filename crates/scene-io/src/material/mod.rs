@@ -4,16 +4,19 @@
 //! linear sRGB, on a grid where that is faster; [`Surface::material`] chooses the concrete pair of reflectance and
 //! sampler, so that everything below the one virtual call of a packet stream is compiled for that pair.
 
+mod identity;
 mod loaded;
 mod measured_file;
 mod measured_model;
 mod options;
 mod pair;
+mod scattered;
 mod surface;
 
+pub use identity::Identity;
 pub use loaded::{Detail, LoadedMeasured};
-pub use measured_file::load_measured;
 pub(crate) use measured_file::measured_from_bytes;
+pub use measured_file::{identify, load_measured};
 pub use options::MaterialOptions;
 pub use pair::SamplerReport;
 pub use surface::Surface;

@@ -1,7 +1,8 @@
 //! What may be chosen about a material.
 
 use crate::scene::{
-    FileMaterial, InterpolationName, ModelMaterial, NegativeName, SamplerName, Weight,
+    BeyondName, FileMaterial, GapName, InterpolationName, ModelMaterial, NegativeName, SamplerName,
+    Weight,
 };
 
 /// Choices; every one has a default that suits the file.
@@ -11,6 +12,10 @@ pub struct MaterialOptions {
     pub interpolation: InterpolationName,
     /// What negative values mean.
     pub negatives: NegativeName,
+    /// What answers in the hole around the incident direction; `None`: what the interpolation does best.
+    pub gap: Option<GapName>,
+    /// What answers beyond the most grazing rows; `None`: what the interpolation does best.
+    pub beyond: Option<BeyondName>,
     /// Factor per linear sRGB channel, applied last.
     pub scale: [f64; 3],
     /// How directions are chosen.
@@ -22,6 +27,8 @@ impl Default for MaterialOptions {
         Self {
             interpolation: InterpolationName::Auto,
             negatives: NegativeName::Auto,
+            gap: None,
+            beyond: None,
             scale: [1.0; 3],
             sampler: SamplerName::Auto,
         }
@@ -35,6 +42,8 @@ impl MaterialOptions {
         Self {
             interpolation: file.interpolation.unwrap_or(InterpolationName::Auto),
             negatives: file.negatives.unwrap_or(NegativeName::Auto),
+            gap: file.gap,
+            beyond: file.beyond,
             scale: plain_scale(file.scale),
             sampler: file.sampler.unwrap_or(sampler),
         }

@@ -9,16 +9,16 @@ use crate::error::Error;
 use crate::scene::{InterpolationName, SamplerName};
 use crate::sealed::content_hash;
 use brdf::{Brdf, DirectionSampler, Material, Measured, Paired, Projected, Status, Symmetry};
+use brdf_measure::MERL_DIMS;
 use brdf_models::{Built, ParsedModel, parse_model};
 use brdf_table::scattered::DEFAULT_DIMS;
-use brdf_table::{GriddedN, HalfDiffTable, Interpolation, PhiDomain, RglN, RglTable};
-use brdf_table::{ThinPlate, resample};
+use brdf_table::{
+    GriddedN, HalfDiffTable, Interpolation, PhiDomain, RglN, RglTable, ThinPlate, resample,
+};
+use glam::DVec3;
 use spectrum::{Basis, RgbSpace};
 use std::fmt;
 use std::sync::Arc;
-
-/// The grid of MERL files, which models are measured onto.
-const MERL_DIMS: [usize; 3] = [90, 90, 180];
 
 /// Reflectance in linear sRGB, before a sampler is chosen for it.
 pub struct Surface {
@@ -31,8 +31,19 @@ enum Form3 {
     Grid(GriddedN<3>),
     /// With its full text, which is all its values depend on.
     Model(Built<3>, String),
-    /// With its own sampling, and what tells it from others.
-    Rgl(Arc<dyn Brdf<3>>, Arc<RglTable>, u64),
+    Native(Native),
+}
+
+/// A measurement that is asked in its own channels.
+struct Native {
+    brdf: Arc<dyn Brdf<3>>,
+    measured: Arc<dyn Measured>,
+    /// What one unit of each channel adds to linear sRGB.
+    matrix: Vec<[f64; 3]>,
+    /// The sampling that comes with the file.
+    sampler: Option<Arc<RglTable>>,
+    /// What tells it from others.
+    key: u64,
 }
 
 impl fmt::Debug for Surface {
@@ -44,23 +55,25 @@ impl fmt::Debug for Surface {
 }
 
 impl Surface {
-    /// A measured file. Grids stay as they are; scattered measurements are resampled onto one.
+    /// A measured file. Grids stay as they are; thin plates, slow to evaluate, are resampled onto one. Everything else
+    /// is rendered through its own answers: a grid would smooth the steps of `nearest`.
     ///
     /// # Errors
     /// If the channels cannot be converted.
     pub fn of_file(loaded: &LoadedMeasured, options: &MaterialOptions) -> Result<Self, Error> {
-        let mut notes = Vec::new();
+        let mut notes = loaded.notes();
         let (table, interpolation) = match &loaded.form {
-            Form::Rgl(table, key) => return Self::rgl(table, *key, options.scale),
+            Form::Rgl(table, key) => return Self::rgl(table, (*key, notes), options.scale),
             Form::Grid(grid) => (Arc::clone(&grid.table), grid.interpolation),
             Form::ThinPlate(plate) => (
                 Arc::new(from_plate(plate, &mut notes)?),
                 Interpolation::Linear,
             ),
-            Form::Opaque => (
-                Arc::new(from_measured(&*loaded.measured)),
-                Interpolation::Linear,
-            ),
+            Form::Opaque(key) => {
+                let measured = Arc::clone(&loaded.measured);
+                let form = Form3::Native(Native::new(measured, *key, options.scale)?);
+                return Ok(Self { form, notes });
+            }
         };
         let table = scaled(table, options.scale)?;
         Self::grid(table, interpolation, notes)
@@ -109,43 +122,41 @@ impl Surface {
     /// If the sum has no cells.
     pub fn mix(parts: &[(Self, f64)]) -> Result<Self, Error> {
         let reciprocal = parts.iter().all(|(s, _)| s.symmetry().reciprocal);
-        let phi = if reciprocal {
-            PhiDomain::Reciprocal
+        let [n_h, n_d, n_p] = MERL_DIMS.map(|n| n as usize);
+        // the full circle at the resolution of the half
+        let (dims, phi) = if reciprocal {
+            ([n_h, n_d, n_p], PhiDomain::Reciprocal)
         } else {
-            PhiDomain::Full
+            ([n_h, n_d, 2 * n_p], PhiDomain::Full)
         };
-        let table = HalfDiffTable::from_fn(MERL_DIMS, phi, srgb(), |wi, wo, out| {
+        let table = HalfDiffTable::from_fn(dims, phi, srgb(), |wi, wo, out| {
             out.fill(0.0);
+            let mut worst = Status::Measured;
             for (part, weight) in parts {
-                let f = part.brdf().eval(wi, wo);
+                let (f, status) = part.eval(wi, wo);
                 out.iter_mut().zip(f).for_each(|(o, v)| *o += weight * v);
+                worst = worst.max(status);
             }
-            Status::Measured
+            worst
         });
         let notes = parts.iter().flat_map(|(s, _)| s.notes.clone()).collect();
         Self::grid(Arc::new(table), Interpolation::Linear, notes)
     }
 
-    fn rgl(table: &Arc<RglTable>, key: u64, scale: [f64; 3]) -> Result<Self, Error> {
-        let mut matrix = table.basis().to_linear_srgb();
-        for row in &mut matrix {
-            (0..3).for_each(|c| row[c] *= scale[c]);
+    fn rgl(
+        table: &Arc<RglTable>,
+        (key, notes): (u64, Vec<String>),
+        scale: [f64; 3],
+    ) -> Result<Self, Error> {
+        let measured = Arc::clone(table) as Arc<dyn Measured>;
+        let mut native = Native::new(measured, key, scale)?;
+        if let Some(whole) = RglN::<3>::new(Arc::clone(table)).filter(|_| is_one(scale)) {
+            native.brdf = Arc::new(whole);
         }
-        let whole = RglN::<3>::new(Arc::clone(table)).filter(|_| is_one(scale));
-        let brdf: Arc<dyn Brdf<3>> = match whole {
-            Some(rgb) => Arc::new(rgb),
-            None => Arc::new(Projected::new(Arc::clone(table), matrix).ok_or_else(|| {
-                Error::invalid("expected as many channels as the basis has, found others")
-            })?),
-        };
-        let bits = scale.map(f64::to_bits);
+        native.sampler = Some(Arc::clone(table));
         Ok(Self {
-            form: Form3::Rgl(
-                brdf,
-                Arc::clone(table),
-                combine(&[key, bits[0], bits[1], bits[2]]),
-            ),
-            notes: Vec::new(),
+            form: Form3::Native(native),
+            notes,
         })
     }
 
@@ -168,7 +179,20 @@ impl Surface {
         match &self.form {
             Form3::Grid(grid) => grid,
             Form3::Model(model, _) => &*model.brdf,
-            Form3::Rgl(brdf, ..) => brdf,
+            Form3::Native(native) => &*native.brdf,
+        }
+    }
+
+    /// f_r in 1/sr, and where it came from; models are as good as measured.
+    fn eval(&self, wi: DVec3, wo: DVec3) -> ([f64; 3], Status) {
+        match &self.form {
+            Form3::Grid(grid) => {
+                let mut out = [0.0; 3];
+                let status = grid.table().eval(wi, wo, grid.interpolation(), &mut out);
+                (out, status)
+            }
+            Form3::Model(model, _) => (model.brdf.eval(wi, wo), Status::Measured),
+            Form3::Native(native) => native.eval(wi, wo),
         }
     }
 
@@ -194,18 +218,56 @@ impl Surface {
                 let key = |_: &_| content_hash(text.as_bytes());
                 pair::pair(model.brdf, name, (key, cache))?
             }
-            (Form3::Rgl(brdf, sampler, _), SamplerName::Native) => {
-                let report = SamplerReport::new(SamplerName::Native, sampler.bytes());
-                (
-                    Box::new(Paired { brdf, sampler }) as Box<dyn Material<3>>,
-                    report,
-                )
-            }
-            (Form3::Rgl(brdf, _, key), _) => pair::pair(brdf, name, (|_: &_| key, cache))?,
+            (Form3::Native(native), _) => native.material(name, cache)?,
             (Form3::Grid(grid), _) => pair::pair(grid, name, (pair::table_key, cache))?,
         };
         report.notes.splice(..0, self.notes);
         Ok((material, report))
+    }
+}
+
+impl Native {
+    fn new(measured: Arc<dyn Measured>, key: u64, scale: [f64; 3]) -> Result<Self, Error> {
+        let mut matrix = measured.basis().to_linear_srgb();
+        for row in &mut matrix {
+            (0..3).for_each(|c| row[c] *= scale[c]);
+        }
+        let brdf = Projected::new(Arc::clone(&measured), matrix.clone()).ok_or_else(|| {
+            Error::invalid("expected as many channels as the basis has, found others")
+        })?;
+        let bits = scale.map(f64::to_bits);
+        Ok(Self {
+            brdf: Arc::new(brdf),
+            measured,
+            matrix,
+            sampler: None,
+            key: combine(&[key, bits[0], bits[1], bits[2]]),
+        })
+    }
+
+    fn eval(&self, wi: DVec3, wo: DVec3) -> ([f64; 3], Status) {
+        let mut native = vec![0.0; self.matrix.len()];
+        let status = self.measured.eval_native(wi, wo, &mut native);
+        let mut out = [0.0; 3];
+        for (value, row) in native.iter().zip(&self.matrix) {
+            (0..3).for_each(|c| out[c] += value * row[c]);
+        }
+        (out, status)
+    }
+
+    fn material(
+        self,
+        name: SamplerName,
+        cache: &Cache,
+    ) -> Result<(Box<dyn Material<3>>, SamplerReport), Error> {
+        let brdf = self.brdf;
+        match (name, self.sampler) {
+            (SamplerName::Native, Some(sampler)) => {
+                let report = SamplerReport::new(SamplerName::Native, sampler.bytes());
+                Ok((Box::new(Paired { brdf, sampler }), report))
+            }
+            _ => pair::pair(brdf, name, (|_: &_| self.key, cache)),
+        }
     }
 }
 
@@ -231,19 +293,6 @@ fn from_plate(plate: &ThinPlate, notes: &mut Vec<String>) -> Result<HalfDiffTabl
         100.0 * resampled.relative_error()
     ));
     Ok(resampled.table)
-}
-
-/// The older schemes have steps and ghosts of their own: the full MERL resolution keeps them visible.
-fn from_measured(measured: &dyn Measured) -> HalfDiffTable {
-    let matrix = measured.basis().to_linear_srgb();
-    HalfDiffTable::from_fn(MERL_DIMS, PhiDomain::Mirror, srgb(), |wi, wo, out| {
-        let mut native = vec![0.0; matrix.len()];
-        let status = measured.eval_native(wi, wo, &mut native);
-        for (value, row) in native.iter().zip(&matrix) {
-            out.iter_mut().zip(row).for_each(|(o, m)| *o += value * m);
-        }
-        status
-    })
 }
 
 fn scaled(table: Arc<HalfDiffTable>, scale: [f64; 3]) -> Result<Arc<HalfDiffTable>, Error> {

@@ -9,6 +9,10 @@ use std::collections::BTreeMap;
 
 /// Most pixels of an image: 2^26, 0.8 GB of f32 RGB.
 const MAX_PIXELS: u64 = 1 << 26;
+/// Most memory of a film's sums: 8 GiB.
+const MAX_FILM_BYTES: u64 = 8 << 30;
+/// A film keeps the sums of this many independent parts of its samples, f64 RGB each, to know its error.
+const REPLICATES: u64 = 8;
 /// Most shapes of a scene.
 const MAX_SHAPES: usize = 1_000_000;
 /// Most points of a lathe profile.
@@ -74,6 +78,17 @@ fn film(scene: &SceneFile) -> Result<(), Error> {
         return Err(Error::invalid(format!(
             "expected at most {MAX_PIXELS} pixels, found {} x {}",
             scene.film.width, scene.film.height
+        )));
+    }
+    let bytes = pixels * REPLICATES.min(u64::from(scene.render.spp).max(1)) * 24;
+    if bytes > MAX_FILM_BYTES {
+        return Err(Error::invalid(format!(
+            "expected a film of at most {} GiB, found {} x {} pixels of {} bytes ({:.1} GiB)",
+            MAX_FILM_BYTES >> 30,
+            scene.film.width,
+            scene.film.height,
+            bytes / pixels.max(1),
+            bytes as f64 / f64::from(1 << 30),
         )));
     }
     if let FilterSpec::Gaussian { sigma, radius } = scene.film.filter

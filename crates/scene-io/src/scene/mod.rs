@@ -12,7 +12,7 @@ pub use checked::{
     Colour, Coordinate, Degrees, Depth, FieldOfView, MAX_COORDINATE, MAX_RADIANCE, Point, Positive,
     Radiometric, SampleCount, Segments, Side, Weight, plain,
 };
-pub use names::{InterpolationName, NegativeName, PointsName, SamplerName};
+pub use names::{BeyondName, GapName, InterpolationName, NegativeName, PointsName, SamplerName};
 pub use resolve::{CameraSpec, FilmSpec, RenderSpec, SceneFile};
 pub use schema::{
     ExposureSpec, FileMaterial, FilterSpec, FormSpec, LightSpec, MaterialSpec, MixMaterial,

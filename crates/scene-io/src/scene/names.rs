@@ -76,12 +76,16 @@ names!(
     InterpolationName, "an interpolation" {
         /// `linear` for grids, `thin-plate` for scattered measurements.
         Auto = "auto",
-        /// The nearest cell (grids) or measurement (scattered).
+        /// The nearest cell (grids) or, layer by layer, measurement (scattered).
         Nearest = "nearest",
         /// Linear in every coordinate.
         Linear = "linear",
         /// The thesis' squared weights (scattered measurements only).
         SquaredLambda = "squared-lambda",
+        /// Linear between layers in the log of the luminance (scattered measurements only).
+        LayeredLog = "layered-log",
+        /// The nearest of all measurements (scattered measurements only).
+        KdNearest = "kd-nearest",
         /// Local thin-plate splines of log f in half-angle coordinates (scattered measurements only).
         ThinPlate = "thin-plate",
     }
@@ -96,6 +100,26 @@ names!(
         Keep = "keep",
         /// Becomes 0.
         Clamp = "clamp",
+    }
+);
+
+names!(
+    /// What answers in the hole around the incident direction of scattered measurements.
+    GapName, "a policy for gaps" {
+        /// The interpolant's own smooth continuation.
+        Extend = "extend",
+        /// The nearest row.
+        Nearest = "nearest",
+    }
+);
+
+names!(
+    /// What answers beyond the most grazing rows of scattered measurements.
+    BeyondName, "a policy beyond the rows" {
+        /// The slope at the edge, bounded by Fresnel reflection.
+        Schlick = "schlick",
+        /// The nearest row.
+        Nearest = "nearest",
     }
 );
 

@@ -71,6 +71,8 @@ pub struct RenderSpec {
     pub spp: u32,
     /// Scattering vertices of a path.
     pub depth: u32,
+    /// Scattering vertices from which on weak paths end by chance; `None`: never.
+    pub roulette: Option<u32>,
     /// Seed of every random decision.
     pub seed: u64,
     /// Only `rgb` so far.
@@ -193,6 +195,7 @@ fn over_base(doc: SceneDoc, home: &Path, depth: usize) -> Result<SceneDoc, Error
         render: RenderDoc {
             spp: doc.render.spp.or(render.spp),
             depth: doc.render.depth.or(render.depth),
+            roulette: doc.render.roulette.or(render.roulette),
             seed: doc.render.seed.or(render.seed),
             spectrum: doc.render.spectrum.or(render.spectrum),
             sampler: doc.render.sampler.or(render.sampler),
@@ -234,6 +237,7 @@ fn render(doc: RenderDoc) -> RenderSpec {
     RenderSpec {
         spp: doc.spp.unwrap_or(SampleCount(64)).0,
         depth: doc.depth.unwrap_or(Depth(5)).0,
+        roulette: doc.roulette.map(|d| d.0),
         seed: doc.seed.unwrap_or(0),
         spectrum: doc.spectrum.unwrap_or_else(|| "rgb".into()),
         sampler: doc.sampler.unwrap_or(SamplerName::Auto),

@@ -6,7 +6,7 @@ use super::checked::{
     Colour, Coordinate, Degrees, Depth, FieldOfView, Point, Positive, SampleCount, Segments, Side,
     Weight,
 };
-use super::names::{InterpolationName, NegativeName, PointsName, SamplerName};
+use super::names::{BeyondName, GapName, InterpolationName, NegativeName, PointsName, SamplerName};
 use super::unique_map::UniqueMap;
 use serde::Deserialize;
 use std::path::PathBuf;
@@ -49,6 +49,7 @@ pub(crate) struct FilmDoc {
 pub(crate) struct RenderDoc {
     pub spp: Option<SampleCount>,
     pub depth: Option<Depth>,
+    pub roulette: Option<Depth>,
     pub seed: Option<u64>,
     pub spectrum: Option<String>,
     pub sampler: Option<SamplerName>,
@@ -111,6 +112,12 @@ pub struct FileMaterial {
     /// What negative values mean.
     #[serde(default)]
     pub negatives: Option<NegativeName>,
+    /// What answers in the hole around the incident direction (scattered measurements).
+    #[serde(default)]
+    pub gap: Option<GapName>,
+    /// What answers beyond the most grazing rows (scattered measurements).
+    #[serde(default)]
+    pub beyond: Option<BeyondName>,
     /// Factor per linear sRGB channel, applied last.
     #[serde(default)]
     pub scale: Option<[Weight; 3]>,

@@ -80,6 +80,55 @@ fn a_read_only_folder_is_refused_in_words() {
     }
 }
 
+#[cfg(unix)]
+#[test]
+fn links_stay_links_and_devices_stay_devices() {
+    use std::os::unix::fs::symlink;
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    write::folder(&at("far")).unwrap();
+    write::bytes(&at("far/target"), b"old").unwrap();
+    symlink(at("far/target"), at("link")).unwrap();
+    symlink(at("far/missing"), at("dangling")).unwrap();
+    symlink(folder.path(), at("to-folder")).unwrap();
+    write::check(&at("link")).unwrap();
+    write::bytes(&at("link"), b"new").unwrap();
+    assert!(at("link").is_symlink(), "the link was replaced");
+    assert_eq!(load::bytes(&at("far/target"), 9).unwrap(), b"new");
+    let cases = [
+        (PathBuf::from("/dev/null"), "found a pipe or device"),
+        (at("dangling"), "found a link to nothing"),
+        (at("to-folder"), "found a folder"),
+        (at("far"), "found a folder"),
+    ];
+    for (path, found) in cases {
+        for result in [write::bytes(&path, b"x"), write::check(&path)] {
+            let error = result.unwrap_err().to_string();
+            assert!(error.ends_with(found), "{error}");
+        }
+    }
+    assert!(!Path::new("/dev/null").is_file(), "/dev/null was replaced");
+    assert_eq!(names(&at("far")), ["target"]);
+}
+
+#[test]
+fn a_check_says_what_a_write_would_and_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("out.exr");
+    write::check(&path).unwrap();
+    assert!(names(folder.path()).is_empty(), "something was left behind");
+    write::bytes(&path, b"old").unwrap();
+    write::check(&path).unwrap();
+    assert_eq!(load::bytes(&path, 9).unwrap(), b"old");
+    let error = write::check(&folder.path().join("no/out.exr")).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .ends_with("cannot write: no such file or folder"),
+        "{error}"
+    );
+}
+
 #[test]
 fn only_regular_files_of_bounded_size_are_read() {
     let folder = tempfile::tempdir().unwrap();
