@@ -200,6 +200,29 @@ impl Chart {
         })
     }
 
+    /// Where the legend hides the fewest points; the upper right if all are alike.
+    fn emptiest_corner(&self, x: &Placed, y: &Placed) -> SeriesLabelPosition {
+        // in thousandths of the axes; a legend takes less than four tenths of either
+        let near = |axis: &Placed, value: f64, corner: i32| {
+            (axis.map(&value, (0, 1000)) - corner).abs() < 400
+        };
+        let hidden = |(cx, cy): (i32, i32)| {
+            let points = self.curves.iter().flat_map(|c| &c.points);
+            points
+                .filter(|p| near(x, p.0, cx) && near(y, p.1, cy))
+                .count()
+        };
+        [
+            (SeriesLabelPosition::UpperRight, (1000, 1000)),
+            (SeriesLabelPosition::UpperLeft, (0, 1000)),
+            (SeriesLabelPosition::LowerRight, (1000, 0)),
+            (SeriesLabelPosition::LowerLeft, (0, 0)),
+        ]
+        .into_iter()
+        .min_by_key(|(_, corner)| hidden(*corner))
+        .map_or(SeriesLabelPosition::UpperRight, |(position, _)| position)
+    }
+
     fn draw<B: DrawingBackend>(
         &self,
         area: &DrawingArea<B, plotters::coord::Shift>,
@@ -207,6 +230,7 @@ impl Chart {
         y: Placed,
     ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
         area.fill(&WHITE)?;
+        let legend = self.emptiest_corner(&x, &y);
         let keep = {
             let (x, y) = (x.clone(), y.clone());
             move |p: &(f64, f64)| {
@@ -261,7 +285,7 @@ impl Chart {
                 .background_style(WHITE.mix(0.85))
                 .border_style(BLACK.mix(0.3))
                 .label_font(("sans-serif", 13))
-                .position(SeriesLabelPosition::UpperRight)
+                .position(legend)
                 .draw()?;
         }
         Ok(())

@@ -71,7 +71,8 @@ impl HeatMap {
             self.draw(&area, max).map_err(PlotError::new)?;
             area.present().map_err(PlotError::new)?;
         }
-        Ok(out)
+        // cells that touch would show seams where their edges are smoothed
+        Ok(out.replacen("<svg ", "<svg shape-rendering=\"crispEdges\" ", 1))
     }
 
     fn draw<B: DrawingBackend>(
@@ -80,7 +81,7 @@ impl HeatMap {
         max: f64,
     ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
         area.fill(&WHITE)?;
-        let (map, bar) = area.split_horizontally(area.dim_in_pixel().0.saturating_sub(96));
+        let (map, bar) = area.split_horizontally(area.dim_in_pixel().0.saturating_sub(112));
         let (low, high) = if self.scale == Scale::Log {
             (max.log10() - DECADES, max.log10())
         } else {
@@ -127,7 +128,7 @@ impl HeatMap {
             .margin(12)
             .margin_top(40)
             .margin_bottom(52)
-            .y_label_area_size(50)
+            .y_label_area_size(64)
             .build_cartesian_2d(0.0..1.0, low..high)?;
         scale.draw_series((0..64).map(|k| {
             let at = |k: i32| low + (high - low) * f64::from(k) / 64.0;
@@ -144,9 +145,9 @@ impl HeatMap {
             .label_style(("sans-serif", 12))
             .y_label_formatter(&|v| {
                 if log {
-                    format!("1e{v:.0}")
+                    format!("1e{v:.0} ")
                 } else {
-                    format!("{v:.3}")
+                    format!("{v:.3} ")
                 }
             })
             .draw()

@@ -33,7 +33,12 @@ pub struct PolarPlot {
     pub incident: Vec<(f64, crate::Color)>,
 }
 
-/// Where things lie, in SVG units.
+/// Units of the drawing in one unit of the picture: plotters draws at whole numbers, too coarse for curves.
+const FINE: i32 = 8;
+/// [`FINE`], as a length.
+const F: f64 = FINE as f64;
+
+/// Where things lie, in units of the drawing.
 struct Frame {
     center: (f64, f64),
     rim: f64,
@@ -62,10 +67,14 @@ impl Frame {
     /// The values at which rings are drawn, and their labels.
     fn rings(&self) -> Vec<(f64, String)> {
         match self.radius {
-            Radius::Linear => (1..=4)
-                .map(|k| self.max * f64::from(k) / 4.0)
-                .map(|v| (v, short(v)))
-                .collect(),
+            Radius::Linear => {
+                let step = round_step(self.max / 4.0);
+                (1..)
+                    .map(|k| step * f64::from(k))
+                    .take_while(|v| *v <= self.max * (1.0 + 1e-9))
+                    .map(|v| (v, short(v)))
+                    .collect()
+            }
             Radius::Log { decades } => {
                 let top = self.max.log10();
                 let mut rings = vec![(self.max, short(self.max))];
@@ -81,8 +90,16 @@ impl Frame {
     }
 }
 
+/// The smallest of 1, 2 and 5 times a power of ten that is not below `rough`.
+fn round_step(rough: f64) -> f64 {
+    let decade = 10_f64.powf(rough.log10().floor());
+    let steps = [1.0, 2.0, 5.0].map(|m| m * decade);
+    let fits = steps.into_iter().find(|s| *s >= rough * (1.0 - 1e-9));
+    fits.unwrap_or(10.0 * decade)
+}
+
 fn short(value: f64) -> String {
-    if (1e-2..1e4).contains(&value) {
+    if (1e-3..1e4).contains(&value) {
         format!("{value:.3}")
             .trim_end_matches('0')
             .trim_end_matches('.')
@@ -110,30 +127,36 @@ impl PolarPlot {
         if max <= 0.0 {
             return Err(PlotError::new("no value is positive"));
         }
+        let entries = self.curves.iter().filter(|c| !c.label.is_empty()).count();
         let legend = 20
-            * u32::try_from(
-                self.curves
-                    .iter()
-                    .filter(|c| !c.label.is_empty())
-                    .count()
-                    .div_ceil(3),
-            )
-            .unwrap_or(0);
-        let rim = f64::from(width) / 2.0 - 48.0;
+            * u32::try_from(entries.div_ceil(LEGEND_COLUMNS.unsigned_abs() as usize)).unwrap_or(0);
+        let height = width / 2 + 72 + legend;
+        let rim = F * (f64::from(width) / 2.0 - 48.0);
         let frame = Frame {
-            center: (f64::from(width) / 2.0, rim + 72.0),
+            center: (F * f64::from(width) / 2.0, rim + F * 76.0),
             rim,
             max,
             radius: self.radius,
         };
+        let fine = FINE.unsigned_abs();
         let mut out = String::new();
         {
-            let area = SVGBackend::with_string(&mut out, (width, width / 2 + 64 + legend))
+            let area = SVGBackend::with_string(&mut out, (fine * width, fine * height))
                 .into_drawing_area();
             self.draw(&area, &frame).map_err(PlotError::new)?;
             area.present().map_err(PlotError::new)?;
         }
-        Ok(out)
+        // the view box stays fine, the picture gets its size
+        let drawn = format!(
+            "<svg width=\"{}\" height=\"{}\"",
+            fine * width,
+            fine * height
+        );
+        Ok(out.replacen(
+            &drawn,
+            &format!("<svg width=\"{width}\" height=\"{height}\""),
+            1,
+        ))
     }
 
     fn draw<B: DrawingBackend>(
@@ -143,20 +166,26 @@ impl PolarPlot {
     ) -> Result<(), Failed<B>> {
         area.fill(&WHITE)?;
         let width = area.dim_in_pixel().0.cast_signed();
-        let title = TextStyle::from(("sans-serif", 20)).pos(centered());
-        area.draw(&Text::new(self.title.clone(), (width / 2, 18), title))?;
+        let title = text(20).pos(centered());
+        area.draw(&Text::new(
+            self.title.clone(),
+            (width / 2, FINE * 18),
+            title,
+        ))?;
         draw_grid(area, frame, &self.radius_label)?;
         for (theta, color) in &self.incident {
-            let color = RGBColor(color[0], color[1], color[2]);
-            area.draw(&PathElement::new(
-                [frame.at(*theta, 1.04), frame.at(*theta, 0.0)],
-                color.mix(0.6).stroke_width(1),
-            ))?;
-            area.draw(&Circle::new(frame.at(*theta, 1.04), 4, color.filled()))?;
+            draw_incident(area, frame, *theta, *color)?;
         }
         let mut entry = 0;
         for curve in &self.curves {
-            draw_curve(area, frame, curve)?;
+            let places = |run: Vec<(f64, f64)>| -> Vec<(i32, i32)> {
+                run.iter()
+                    .map(|(theta, value)| frame.place(*theta, value.max(0.0)))
+                    .collect()
+            };
+            for run in curve.runs(|p| p.1.is_finite()) {
+                draw_line(area, &places(run), curve)?;
+            }
             if !curve.label.is_empty() {
                 draw_legend_entry(area, frame, curve, entry)?;
                 entry += 1;
@@ -164,6 +193,52 @@ impl PolarPlot {
         }
         Ok(())
     }
+}
+
+/// Legend entries side by side.
+const LEGEND_COLUMNS: i32 = 3;
+
+/// Plain text of a height in units of the picture.
+fn text(height: i32) -> TextStyle<'static> {
+    TextStyle::from(("sans-serif", FINE * height))
+}
+
+fn stroke(color: impl Color, width: u32) -> ShapeStyle {
+    color.stroke_width(FINE.unsigned_abs() * width)
+}
+
+/// The way the light comes: a line from the rim with a head at the centre, and the angle where the grid has none.
+fn draw_incident<B: DrawingBackend>(
+    area: &DrawingArea<B, Shift>,
+    frame: &Frame,
+    theta: f64,
+    color: crate::Color,
+) -> Result<(), Failed<B>> {
+    let color = RGBColor(color[0], color[1], color[2]);
+    area.draw(&PathElement::new(
+        [frame.at(theta, 1.0), frame.at(theta, 0.0)],
+        stroke(color, 1),
+    ))?;
+    // half-way in, so that narrow lobes near the centre stay visible
+    let (tip, back) = (0.5, 0.5 + 11.0 * F / frame.rim);
+    let head = [
+        frame.at(theta, tip),
+        frame.at(theta - 0.02, back),
+        frame.at(theta + 0.02, back),
+    ];
+    area.draw(&Polygon::new(head, color.filled()))?;
+    area.draw(&Circle::new(frame.at(theta, 1.0), FINE * 4, color.filled()))?;
+    let deg = theta.to_degrees().abs();
+    if (deg / 15.0 - (deg / 15.0).round()).abs() < 1e-6 {
+        return Ok(());
+    }
+    let label = format!("{}", (deg * 10.0).round() / 10.0);
+    let place = frame.at(theta, 1.0 + 16.0 * F / frame.rim);
+    area.draw(&Text::new(
+        label,
+        place,
+        text(12).pos(centered()).color(&color),
+    ))
 }
 
 fn centered() -> plotters::style::text_anchor::Pos {
@@ -176,15 +251,17 @@ fn draw_grid<B: DrawingBackend>(
     frame: &Frame,
     label: &str,
 ) -> Result<(), Failed<B>> {
-    let faint = BLACK.mix(0.18).stroke_width(1);
-    let text = TextStyle::from(("sans-serif", 12)).pos(centered());
+    let faint = stroke(BLACK.mix(0.18), 1);
+    let small = text(12).pos(centered());
+    let rim = (-180..=180).map(|half| frame.at(f64::from(half).to_radians() / 2.0, 1.0));
+    area.draw(&PathElement::new(rim.collect::<Vec<_>>(), faint))?;
     for (value, label) in frame.rings() {
-        let arc: Vec<_> = (-90..=90)
-            .map(|deg| frame.place(f64::from(deg).to_radians(), value))
+        let arc: Vec<_> = (-180..=180)
+            .map(|half| frame.place(f64::from(half).to_radians() / 2.0, value))
             .collect();
         let (x, y) = frame.place(90_f64.to_radians(), value);
         area.draw(&PathElement::new(arc, faint))?;
-        area.draw(&Text::new(label, (x, y + 12), text.clone()))?;
+        area.draw(&Text::new(label, (x, y + FINE * 12), small.clone()))?;
     }
     for deg in (-90_i32..=90).step_by(15) {
         let theta = f64::from(deg).to_radians();
@@ -192,43 +269,75 @@ fn draw_grid<B: DrawingBackend>(
             [frame.at(theta, 0.0), frame.at(theta, 1.0)],
             faint,
         ))?;
-        let (x, y) = frame.at(theta, 1.0 + 16.0 / frame.rim);
-        area.draw(&Text::new(format!("{}", deg.abs()), (x, y), text.clone()))?;
+        let (x, y) = frame.at(theta, 1.0 + 16.0 * F / frame.rim);
+        let label = format!("{}\u{b0}", deg.abs());
+        area.draw(&Text::new(label, (x, y), small.clone()))?;
     }
     let (x, y) = frame.at(0.0, 0.0);
     area.draw(&PathElement::new(
         [frame.at(-FRAC_PI_2, 1.0), frame.at(FRAC_PI_2, 1.0)],
-        BLACK.stroke_width(1),
+        stroke(BLACK, 1),
     ))?;
-    area.draw(&Text::new(label.to_owned(), (x, y + 28), text))
+    area.draw(&Text::new(label.to_owned(), (x, y + FINE * 28), small))
 }
 
-fn draw_curve<B: DrawingBackend>(
+/// A line through `places` in the style of `curve`: dashes and dots are evenly long on paper.
+fn draw_line<B: DrawingBackend>(
     area: &DrawingArea<B, Shift>,
-    frame: &Frame,
+    places: &[(i32, i32)],
     curve: &Curve,
 ) -> Result<(), Failed<B>> {
     let color = RGBColor(curve.color[0], curve.color[1], curve.color[2]);
-    for run in curve.runs(|p| p.1.is_finite()) {
-        let places: Vec<_> = run
-            .iter()
-            .map(|(theta, value)| frame.place(*theta, value.max(0.0)))
-            .collect();
-        match curve.stroke {
-            Stroke::Solid => area.draw(&PathElement::new(places, color.stroke_width(2)))?,
-            Stroke::Dashed => {
-                for pair in places.chunks(2).filter(|pair| pair.len() == 2) {
-                    area.draw(&PathElement::new(pair.to_vec(), color.stroke_width(2)))?;
-                }
+    let style = stroke(color, 2);
+    match curve.stroke {
+        Stroke::Solid => area.draw(&PathElement::new(places.to_vec(), style))?,
+        Stroke::Dashed => {
+            for dash in dashes(places, F * 8.0, F * 5.0) {
+                area.draw(&PathElement::new(dash, style))?;
             }
-            Stroke::Dots => {
-                for place in places {
-                    area.draw(&Circle::new(place, 2, color.filled()))?;
-                }
+        }
+        Stroke::Dots => {
+            for dot in dashes(places, 0.0, F * 5.0) {
+                area.draw(&Circle::new(dot[0], FINE * 3 / 2, color.filled()))?;
             }
         }
     }
     Ok(())
+}
+
+/// Pieces of a line, `on` long, with gaps of `off` between them; of length 0, single places.
+fn dashes(places: &[(i32, i32)], on: f64, off: f64) -> Vec<Vec<(i32, i32)>> {
+    let mut pieces: Vec<Vec<(i32, i32)>> = Vec::new();
+    let (mut drawing, mut left) = (true, on);
+    let mut piece: Vec<(i32, i32)> = places.iter().take(1).copied().collect();
+    for pair in places.windows(2) {
+        let (from, to) = (pair[0], pair[1]);
+        let length = f64::from(to.0 - from.0).hypot(f64::from(to.1 - from.1));
+        let at = |s: f64| {
+            let along = |a: i32, b: i32| a + (f64::from(b - a) * s / length).round() as i32;
+            (along(from.0, to.0), along(from.1, to.1))
+        };
+        let mut gone = 0.0;
+        while gone + left < length {
+            gone += left;
+            if drawing {
+                piece.push(at(gone));
+                pieces.push(std::mem::take(&mut piece));
+            } else {
+                piece = vec![at(gone)];
+            }
+            drawing = !drawing;
+            left = if drawing { on } else { off };
+        }
+        left -= length - gone;
+        if drawing {
+            piece.push(to);
+        }
+    }
+    if drawing && piece.len() > 1 {
+        pieces.push(piece);
+    }
+    pieces
 }
 
 fn draw_legend_entry<B: DrawingBackend>(
@@ -238,19 +347,13 @@ fn draw_legend_entry<B: DrawingBackend>(
     entry: i32,
 ) -> Result<(), Failed<B>> {
     let width = area.dim_in_pixel().0.cast_signed();
-    let (column, row) = (entry % 3, entry / 3);
-    let x = 24 + column * (width - 40) / 3;
-    let y = frame.at(0.0, 0.0).1 + 50 + 20 * row;
-    let color = RGBColor(curve.color[0], curve.color[1], curve.color[2]);
-    area.draw(&PathElement::new(
-        [(x, y), (x + 20, y)],
-        color.stroke_width(3),
-    ))?;
-    area.draw(&Text::new(
-        curve.label.clone(),
-        (x + 26, y - 7),
-        TextStyle::from(("sans-serif", 13)),
-    ))
+    let columns = LEGEND_COLUMNS;
+    let (column, row) = (entry % columns, entry / columns);
+    let x = FINE * 24 + column * (width - FINE * 40) / columns;
+    let y = frame.at(0.0, 0.0).1 + FINE * (54 + 20 * row);
+    draw_line(area, &[(x, y), (x + FINE * 34, y)], curve)?;
+    let place = (x + FINE * 42, y - FINE * 7);
+    area.draw(&Text::new(curve.label.clone(), place, text(13)))
 }
 
 #[cfg(test)]
@@ -313,5 +416,35 @@ mod tests {
             crate::png(&svg, 1.0).unwrap().starts_with(b"\x89PNG"),
             "a PNG file"
         );
+    }
+
+    #[test]
+    fn rings_are_round_numbers() {
+        let rings = |max, radius| {
+            let frame = Frame {
+                center: (0.0, 0.0),
+                rim: 100.0,
+                max,
+                radius,
+            };
+            let labels = frame.rings().into_iter().map(|r| r.1);
+            labels.collect::<Vec<_>>().join(" ")
+        };
+        assert_eq!(rings(19.083, Radius::Linear), "5 10 15");
+        assert_eq!(rings(0.08, Radius::Linear), "0.02 0.04 0.06 0.08");
+        let log = Radius::Log { decades: 4.0 };
+        assert_eq!(rings(0.4988, log), "0.1 0.01 0.001 1.0e-4");
+    }
+
+    #[test]
+    fn dashes_are_evenly_long() {
+        let line = [(0, 0), (7, 0), (100, 0)];
+        let ends: Vec<_> = dashes(&line, 30.0, 20.0)
+            .iter()
+            .map(|d| (d[0].0, d[d.len() - 1].0))
+            .collect();
+        assert_eq!(ends, [(0, 30), (50, 80)]);
+        let dots = dashes(&line, 0.0, 40.0);
+        assert_eq!(dots.iter().map(|d| d[0].0).collect::<Vec<_>>(), [0, 40, 80]);
     }
 }

@@ -1,12 +1,14 @@
 //! From one measured file to another format, and linear combinations: what `gonio convert` and `gonio mix` do.
 
 use crate::error::{Error, ErrorKind};
-use crate::material::{LoadedMeasured, MaterialOptions, load_measured, measured_from_bytes};
+use crate::material::{
+    Detail, LoadedMeasured, MaterialOptions, load_measured, measured_from_bytes,
+};
 use crate::{load, write};
 use brdf::{Brdf, Measured, Projected, Status};
 use brdf_formats::{AstmFile, Channels, File, PbrtTextFile};
 use brdf_measure::{Instrument, measure_astm};
-use brdf_table::{HalfDiffTable, PhiDomain, mix};
+use brdf_table::{HalfDiffTable, Interpolation, PhiDomain, mix};
 use sampling::{Rng, warp};
 use spectrum::{Basis, RgbSpace};
 use std::path::Path;
@@ -26,6 +28,8 @@ pub struct Conversion {
 const PAIRS: u32 = 20_000;
 /// The grid of MERL's own files.
 const MERL_DIMS: [usize; 3] = [90, 90, 180];
+/// The same for materials that are not reciprocal.
+const FULL_CIRCLE: [usize; 3] = [90, 90, 360];
 
 /// Writes `input` as `output`, in the format that the extension of `output` stands for.
 ///
@@ -82,11 +86,7 @@ pub fn mix_files(
     {
         // one part that is not reciprocal makes the sum so
         for (table, _) in &mut tables {
-            *table = Arc::new(table.resample(
-                [90, 90, 360],
-                PhiDomain::Full,
-                brdf_table::Interpolation::Linear,
-            ));
+            *table = Arc::new(table.resample(FULL_CIRCLE, PhiDomain::Full, Interpolation::Linear));
         }
     }
     let borrowed: Vec<(&HalfDiffTable, f64)> = tables.iter().map(|(t, w)| (&**t, *w)).collect();
@@ -132,21 +132,25 @@ fn linear_srgb_table(loaded: &LoadedMeasured) -> Result<Arc<HalfDiffTable>, Erro
         return Ok(Arc::clone(table));
     }
     let brdf = linear_srgb(loaded)?;
-    let reciprocal = loaded.measured.symmetry().reciprocal;
-    let (dims, phi) = if reciprocal {
-        (MERL_DIMS, PhiDomain::Reciprocal)
-    } else {
-        ([90, 90, 360], PhiDomain::Full)
+    let rows = matches!(
+        loaded.detail,
+        Detail::Scattered { .. } | Detail::Rows { .. }
+    );
+    let (dims, phi) = match loaded.measured.symmetry().reciprocal {
+        true => (MERL_DIMS, PhiDomain::Reciprocal),
+        // rows cover half of the circle and are mirrored: there is no more to evaluate
+        false if rows => (MERL_DIMS, PhiDomain::Mirror),
+        false => (FULL_CIRCLE, PhiDomain::Full),
     };
-    Ok(Arc::new(HalfDiffTable::from_fn(
-        dims,
-        phi,
-        srgb,
-        |wi, wo, out| {
-            out.copy_from_slice(&brdf.eval(wi, wo));
-            Status::Interpolated
-        },
-    )))
+    let table = HalfDiffTable::from_fn(dims, phi, srgb, |wi, wo, out| {
+        out.copy_from_slice(&brdf.eval(wi, wo));
+        Status::Interpolated
+    });
+    Ok(Arc::new(match phi {
+        // the centres of its cells are centres of the half circle's: nothing is interpolated
+        PhiDomain::Mirror => table.resample(FULL_CIRCLE, PhiDomain::Full, Interpolation::Nearest),
+        _ => table,
+    }))
 }
 
 fn linear_srgb(loaded: &LoadedMeasured) -> Result<Projected<Arc<dyn Measured>, 3>, Error> {

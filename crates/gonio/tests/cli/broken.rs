@@ -1,6 +1,8 @@
 //! Broken input of every kind: one line that says which file, where, what was expected and what was found; exit code 1
 //! (2 for bad usage); nothing left behind.
 
+#![expect(clippy::too_many_lines, reason = "tables of broken input")]
+
 use crate::fixtures::{astm_rgb, merl, pbrt_text, scene, tensor};
 use crate::program::Bench;
 

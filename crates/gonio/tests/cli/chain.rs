@@ -1,5 +1,7 @@
 //! The verbs in a chain: what one writes the next reads, and the numbers agree.
 
+#![expect(clippy::too_many_lines, reason = "one chain of verbs is one test")]
+
 use crate::fixtures::{astm_rgb, pbrt_text};
 use crate::program::{Bench, numbers};
 use scene_io::image::{Picture, read_exr};
@@ -185,7 +187,7 @@ fn rows_come_back_at_their_own_angles() {
 }
 
 /// Evaluates every `step`-th row of an RGB ASTM file.
-pub fn rows_come_back(bench: &Bench, file: &str, step: usize) {
+pub(crate) fn rows_come_back(bench: &Bench, file: &str, step: usize) {
     let astm = brdf_formats::AstmFile::from_bytes(&bench.read(file)).unwrap();
     let scale = numbers(&bench.json(&format!("info {file}"))["scale"]);
     let rows: Vec<usize> = (0..astm.row_count()).step_by(step).collect();

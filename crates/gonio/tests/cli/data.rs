@@ -62,9 +62,9 @@ fn every_genuine_file_is_plotted() {
     }
 }
 
-/// Means of the channels over the pixels the material covers.
-fn means(picture: &Picture) -> [f64; 3] {
-    let covered = picture.pixels.iter().filter(|p| **p != [1.0; 3]);
+/// Sums of the channels over all pixels but those of a background of exactly 1.
+fn sums(picture: &Picture) -> [f64; 3] {
+    let covered = picture.pixels.iter().filter(|p| p.iter().any(|v| v.to_bits() != 1_f32.to_bits()));
     let mut sum = [0.0; 3];
     for pixel in covered {
         (0..3).for_each(|c| sum[c] += f64::from(pixel[c]));
@@ -89,7 +89,7 @@ fn slow_rgb_and_spectral_files_render_alike() {
                     bench.text(&format!(
                         "render {scene} --material {file} --size 64x48 --spp 256 -o {out}"
                     ));
-                    means(&read_exr(&bench.path(out)).unwrap())
+                    sums(&read_exr(&bench.path(out)).unwrap())
                 });
             let total = |m: [f64; 3]| m.iter().sum::<f64>();
             let worst = (0..3)

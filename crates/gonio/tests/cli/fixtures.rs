@@ -4,7 +4,7 @@ use brdf_formats::{AstmFile, Channels};
 use brdf_measure::cornell_directions;
 
 /// A MERL file of these dimensions, every value `of(cell)`.
-pub fn merl(dims: [i32; 3], of: impl Fn(usize) -> f64) -> Vec<u8> {
+pub(crate) fn merl(dims: [i32; 3], of: impl Fn(usize) -> f64) -> Vec<u8> {
     let cells = dims.iter().product::<i32>() as usize;
     let mut bytes: Vec<u8> = dims.iter().flat_map(|d| d.to_le_bytes()).collect();
     for _ in 0..3 {
@@ -14,7 +14,7 @@ pub fn merl(dims: [i32; 3], of: impl Fn(usize) -> f64) -> Vec<u8> {
 }
 
 /// pbrt-v2 text with three wavelengths in Cornell's directions: a diffuse material that is red.
-pub fn pbrt_text() -> String {
+pub(crate) fn pbrt_text() -> String {
     let mut text = String::from("# a comment\n\n3\n\n400 550 700\n\n");
     for angles in cornell_directions(17.0) {
         for a in angles {
@@ -26,7 +26,7 @@ pub fn pbrt_text() -> String {
 }
 
 /// A measurement of a material that is darker toward the rim, in the RGB of Cornell's files.
-pub fn astm_rgb() -> Vec<u8> {
+pub(crate) fn astm_rgb() -> Vec<u8> {
     let directions = cornell_directions(17.0);
     let rows = directions.iter().flat_map(|a| {
         let level = 0.02 + 0.05 * a[2].cos() * a[0].cos();
@@ -38,7 +38,7 @@ pub fn astm_rgb() -> Vec<u8> {
 }
 
 /// A tensor file with one field, as its offset, shape and type claim.
-pub fn tensor(dtype: u8, offset: u64, shape: [u64; 2], data: &[u8]) -> Vec<u8> {
+pub(crate) fn tensor(dtype: u8, offset: u64, shape: [u64; 2], data: &[u8]) -> Vec<u8> {
     let mut bytes = b"tensor_file\0\x01\0".to_vec();
     bytes.extend(1_u32.to_le_bytes());
     bytes.extend(7_u16.to_le_bytes());
@@ -52,7 +52,7 @@ pub fn tensor(dtype: u8, offset: u64, shape: [u64; 2], data: &[u8]) -> Vec<u8> {
 }
 
 /// A scene of one sphere around `fields`.
-pub fn scene(fields: &str) -> String {
+pub(crate) fn scene(fields: &str) -> String {
     format!(
         "(\n  camera: (position: (0, 1, 5), target: (0, 1, 0)),\n  film: (width: 8, height: 8),\n  \
          render: (spp: 1),\n  {fields}\n)"

@@ -1,12 +1,22 @@
 //! The program as its users meet it: what it prints, writes, refuses and returns.
 
+#[cfg(test)]
 mod broken;
+#[cfg(test)]
 mod chain;
+#[cfg(test)]
 mod data;
+#[cfg(test)]
 mod exact;
+#[cfg(test)]
 mod fixtures;
+#[cfg(test)]
 mod golden;
+#[cfg(test)]
 mod help;
+#[cfg(test)]
 mod interrupt;
+#[cfg(test)]
 mod output;
+#[cfg(test)]
 mod program;

@@ -5,37 +5,37 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// A temporary folder the program runs in, away from the user's data and caches.
-pub struct Bench {
+pub(crate) struct Bench {
     folder: tempfile::TempDir,
 }
 
 /// What a run left on its streams.
-pub struct Run {
-    pub code: i32,
-    pub out: String,
-    pub err: String,
+pub(crate) struct Run {
+    pub(crate) code: i32,
+    pub(crate) out: String,
+    pub(crate) err: String,
 }
 
 impl Bench {
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             folder: tempfile::tempdir().unwrap(),
         }
     }
 
-    pub fn path(&self, name: &str) -> PathBuf {
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }
 
-    pub fn write(&self, name: &str, content: impl AsRef<[u8]>) {
+    pub(crate) fn write(&self, name: &str, content: impl AsRef<[u8]>) {
         scene_io::write::bytes(&self.path(name), content.as_ref()).unwrap();
     }
 
-    pub fn read(&self, name: &str) -> Vec<u8> {
+    pub(crate) fn read(&self, name: &str) -> Vec<u8> {
         scene_io::load::bytes(&self.path(name), 1 << 30).unwrap()
     }
 
-    pub fn command(&self, line: &str) -> Command {
+    pub(crate) fn command(&self, line: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_gonio"));
         command
             .args(line.split_whitespace())
@@ -47,7 +47,7 @@ impl Bench {
     }
 
     /// Runs a command line, split at blanks.
-    pub fn run(&self, line: &str) -> Run {
+    pub(crate) fn run(&self, line: &str) -> Run {
         let output = self.command(line).output().unwrap();
         let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
         Run {
@@ -58,14 +58,14 @@ impl Bench {
     }
 
     /// Runs a command line that must succeed; its stdout.
-    pub fn text(&self, line: &str) -> String {
+    pub(crate) fn text(&self, line: &str) -> String {
         let run = self.run(line);
         assert_eq!(run.code, 0, "gonio {line}: {}", run.err);
         run.out
     }
 
     /// Runs a command line with `--json`, which must succeed and print one object on one line.
-    pub fn json(&self, line: &str) -> serde_json::Value {
+    pub(crate) fn json(&self, line: &str) -> serde_json::Value {
         let out = self.text(&format!("{line} --json"));
         assert_eq!(out.lines().count(), 1, "gonio {line}: {out}");
         let value: serde_json::Value = serde_json::from_str(&out).unwrap();
@@ -74,7 +74,7 @@ impl Bench {
     }
 
     /// Every file below the folder but the cache.
-    pub fn files(&self) -> BTreeSet<PathBuf> {
+    pub(crate) fn files(&self) -> BTreeSet<PathBuf> {
         fn walk(folder: &Path, found: &mut BTreeSet<PathBuf>) {
             for entry in std::fs::read_dir(folder).unwrap() {
                 let path = entry.unwrap().path();
@@ -92,12 +92,12 @@ impl Bench {
 }
 
 /// A file of this repository.
-pub fn repository(path: &str) -> String {
+pub(crate) fn repository(path: &str) -> String {
     format!("{}/../../{path}", env!("CARGO_MANIFEST_DIR"))
 }
 
 /// The numbers of a JSON array.
-pub fn numbers(value: &serde_json::Value) -> Vec<f64> {
+pub(crate) fn numbers(value: &serde_json::Value) -> Vec<f64> {
     let array = value.as_array().unwrap();
     array.iter().map(|v| v.as_f64().unwrap()).collect()
 }
