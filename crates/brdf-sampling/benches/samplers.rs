@@ -7,7 +7,7 @@ use brdf::{DirectionSampler, LANES, Lanes3, direction};
 use brdf_sampling::{Cosine, Hvt, Inversion, InversionOptions, Preset, Target, Uniform};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use glam::{DVec2, DVec3};
-use pulp::Arch;
+use pulp::{Arch, Simd, WithSimd};
 use sampling::Rng;
 use std::hint::black_box;
 
@@ -35,19 +35,37 @@ type Pair = [[f32; LANES]; 2];
 
 impl<S: DirectionSampler> Wide for S {
     fn sample_all(&self, arch: Arch, packets: &[(Lanes3, Pair)]) {
-        arch.dispatch(|| {
-            for (wo, u) in packets {
-                black_box(self.sample_lanes(wo, u));
-            }
-        });
+        arch.dispatch(Sampling(self, packets));
     }
 
     fn pdf_all(&self, arch: Arch, pairs: &[(Lanes3, Lanes3)]) {
-        arch.dispatch(|| {
-            for (wi, wo) in pairs {
-                black_box(self.pdf_lanes(wi, wo));
-            }
-        });
+        arch.dispatch(Densities(self, pairs));
+    }
+}
+
+struct Sampling<'a, S>(&'a S, &'a [(Lanes3, Pair)]);
+
+impl<S: DirectionSampler> WithSimd for Sampling<'_, S> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<T: Simd>(self, _: T) {
+        for (wo, u) in self.1 {
+            black_box(self.0.sample_lanes(wo, u));
+        }
+    }
+}
+
+struct Densities<'a, S>(&'a S, &'a [(Lanes3, Lanes3)]);
+
+impl<S: DirectionSampler> WithSimd for Densities<'_, S> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<T: Simd>(self, _: T) {
+        for (wi, wo) in self.1 {
+            black_box(self.0.pdf_lanes(wi, wo));
+        }
     }
 }
 

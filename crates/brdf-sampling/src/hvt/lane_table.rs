@@ -26,12 +26,11 @@ impl Places {
     /// The blends at slice coordinates in [0, n_theta - 1].
     #[inline(always)]
     pub(super) fn new(table: &Table, x: &F) -> Self {
-        let last = table.shape.n_theta as i32 - 2;
+        let last = (table.shape.n_theta - 2) as u32;
         let (mut slice, mut t) = ([0; LANES], ZERO);
         for k in 0..LANES {
-            let s = (x[k] as i32).min(last);
-            t[k] = x[k] - s as f32;
-            slice[k] = s.cast_unsigned();
+            slice[k] = (x[k] as u32).min(last);
+            t[k] = x[k] - slice[k] as f32;
         }
         let (scales, lobes) = (pairs(&table.scale, &slice), pairs(&table.lobe, &slice));
         let (mut factor, mut lobe) = ([ZERO; 2], ZERO);
@@ -64,13 +63,13 @@ fn pairs(list: &[f32], at: &Index) -> [F; 2] {
 #[inline(always)]
 pub(super) fn density(table: &Table, places: &Places, a: &F, b: &F) -> F {
     let (nb, n) = (table.shape.n_b, table.shape.slice());
-    let (last_a, last_b) = (table.shape.n_a as i32 - 2, nb as i32 - 2);
+    let (last_a, last_b) = ((table.shape.n_a - 2) as u32, (nb - 2) as u32);
     let (mut x, mut y, mut node): (F, F, Index) = (ZERO, ZERO, [0; LANES]);
     for k in 0..LANES {
         let (u, v) = (a[k] * (last_a + 1) as f32, b[k] * (last_b + 1) as f32);
-        let (i, j) = ((u as i32).min(last_a), (v as i32).min(last_b));
+        let (i, j) = ((u as u32).min(last_a), (v as u32).min(last_b));
         (x[k], y[k]) = (u - i as f32, v - j as f32);
-        node[k] = places.slice[k] * n as u32 + (i * nb as i32 + j).cast_unsigned();
+        node[k] = places.slice[k] * n as u32 + i * nb as u32 + j;
     }
     let mut corners = [[0_u32; LANES]; 4];
     for k in 0..LANES {
@@ -114,24 +113,20 @@ pub(super) fn invert(table: &Table, places: &Places, u: &F, v: &F) -> Hit {
         x[k] = linear(low, high, fraction[k]);
         target[k] = v[k] * (low + x[k] * (high - low));
     }
-    // the last column whose cumulated mass is not above the target: masses are positive, so once passed is all
-    // passed up to there
-    let (mut at, mut below, mut column) = (ZERO, ZERO, ZERO);
-    let (mut left, mut right, mut previous) = (ZERO, ZERO, ZERO);
-    for j in 0..nb {
-        let (low, high) = (&rows.low[j], &rows.high[j]);
+    // columns whose mass, with all before them, is not above the target lie before the point
+    let (mut at, mut below, mut column) = (ZERO, ZERO, [0_u32; LANES]);
+    for j in 1..nb - 1 {
         for k in 0..LANES {
-            let value = low[k] + x[k] * (high[k] - low[k]);
-            let end = at[k] + 0.5 * (previous[k] + value);
-            // column j - 1 runs from `previous` to `value`, and is entered where it begins at or below the target
-            let entered = j == 1 || at[k] <= target[k];
-            column[k] = if entered { (j as f32) - 1.0 } else { column[k] };
-            below[k] = if entered { at[k] } else { below[k] };
-            left[k] = if entered { previous[k] } else { left[k] };
-            right[k] = if entered { value } else { right[k] };
-            at[k] = if j == 0 { 0.0 } else { end };
-            previous[k] = value;
+            at[k] += 0.5 * (rows.at(j - 1, x[k], k) + rows.at(j, x[k], k));
+            let passed = at[k] <= target[k];
+            column[k] += u32::from(passed);
+            below[k] = below[k].max(if passed { at[k] } else { 0.0 });
         }
+    }
+    let (mut left, mut right) = (ZERO, ZERO);
+    for k in 0..LANES {
+        let j = (column[k] as usize).min(MAX_B - 2);
+        (left[k], right[k]) = (rows.at(j, x[k], k), rows.at(j + 1, x[k], k));
     }
     let mut hit = Hit {
         a: ZERO,
@@ -143,7 +138,7 @@ pub(super) fn invert(table: &Table, places: &Places, u: &F, v: &F) -> Hit {
         let part = (target[k] - below[k]) / (0.5 * (left[k] + right[k]));
         let y = linear(left[k], right[k], part.clamp(0.0, 1.0));
         hit.a[k] = (row[k] as f32 + x[k]) * scale_a;
-        hit.b[k] = (column[k] + y) * scale_b;
+        hit.b[k] = (column[k] as f32 + y) * scale_b;
         hit.density[k] = left[k] + y * (right[k] - left[k]);
     }
     hit
@@ -157,33 +152,37 @@ fn row_of(table: &Table, places: &Places, u: &F) -> (Index, F) {
     for k in 0..LANES {
         base[k] = places.slice[k] * na as u32;
     }
-    let below = |at: &Index, offset: usize| -> F {
-        let (mut low, mut high, mut out) = (ZERO, ZERO, ZERO);
-        for k in 0..LANES {
-            let from = &table.below()[at[k] as usize + offset..][..na + 1];
-            (low[k], high[k]) = (from[0], from[na]);
-        }
-        for k in 0..LANES {
-            out[k] = low[k] + places.t[k] * (high[k] - low[k]);
-        }
-        out
-    };
     let (mut at, mut len) = (base, na - 1);
     while len > 1 {
         let half = len / 2;
-        let mass = below(&at, half);
+        let mass = below(table, places, &at, half);
         for k in 0..LANES {
             at[k] += if mass[k] <= u[k] { half as u32 } else { 0 };
         }
         len -= half;
     }
-    let (low, high) = (below(&at, 0), below(&at, 1));
+    let (low, high) = (below(table, places, &at, 0), below(table, places, &at, 1));
     let mut fraction = ZERO;
     for k in 0..LANES {
         at[k] -= base[k];
         fraction[k] = ((u[k] - low[k]) / (high[k] - low[k])).clamp(0.0, 1.0);
     }
     (at, fraction)
+}
+
+/// Blended mass below row `at + offset`; `at` counts the rows of all slices.
+#[inline(always)]
+fn below(table: &Table, places: &Places, at: &Index, offset: usize) -> F {
+    let na = table.shape.n_a;
+    let (mut low, mut high, mut out) = (ZERO, ZERO, ZERO);
+    for k in 0..LANES {
+        let from = &table.below()[at[k] as usize + offset..][..na + 1];
+        (low[k], high[k]) = (from[0], from[na]);
+    }
+    for k in 0..LANES {
+        out[k] = low[k] + places.t[k] * (high[k] - low[k]);
+    }
+    out
 }
 
 /// The two blended rows of nodes around a point, column by column.
@@ -195,6 +194,12 @@ struct Rows {
 }
 
 impl Rows {
+    /// Node `j` of the row at `x` between the two, in lane `k`.
+    #[inline(always)]
+    fn at(&self, j: usize, x: f32, k: usize) -> f32 {
+        self.low[j][k] + x * (self.high[j][k] - self.low[j][k])
+    }
+
     #[inline(always)]
     fn new(table: &Table, places: &Places, row: &Index) -> Self {
         let (nb, n) = (table.shape.n_b, table.shape.slice());
