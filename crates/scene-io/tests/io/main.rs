@@ -7,6 +7,7 @@
 mod files;
 mod malformed_files;
 mod malformed_scenes;
+mod measured;
 mod pictures;
 mod real_files;
 mod rendered;

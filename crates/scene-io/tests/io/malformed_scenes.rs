@@ -36,10 +36,7 @@ fn a_scene_with_nothing_wrong_is_accepted() {
 #[test]
 fn mistakes_of_form_are_placed() {
     let cases: &[(&str, &str)] = &[
-        (
-            "film: (width: 64",
-            "4:1: expected comma, found `)`",
-        ),
+        ("film: (width: 64", "4:1: expected comma, found `)`"),
         (
             "film: (widht: 64)",
             "3:10: film.widht: unexpected field named `widht` in `Film`, expected one of `width`, `height`, `filter`, or `exposure` instead",
@@ -98,7 +95,7 @@ fn mistakes_of_form_are_placed() {
         ),
         (
             "materials: { \"m\": File(file: \"a.binary\") }",
-            "3:26: materials.m.File.file: unexpected field named `file` in `File`, expected one of `path`, `interpolation`, `negatives`, `scale`, or `sampler` instead",
+            "3:26: materials.m.File.file: unexpected field named `file` in `File`, expected one of `path`, `interpolation`, `negatives`, `gap`, `beyond`, `scale`, or `sampler` instead",
         ),
         (
             "materials: { \"m\": File() }",
@@ -156,12 +153,61 @@ fn mistakes_of_form_are_placed() {
             "lights: [Point(position: (0, 0, 0))]",
             "3:37: lights[0].Point: unexpected missing field named `intensity` in `Point`",
         ),
+        ("film: () film: ()", "3:12: expected comma, found `film`"),
+    ];
+    for (fields, expected) in cases {
+        assert_eq!(error(&scene(fields)), *expected, "{fields}");
+    }
+}
+
+/// Mistakes that no single number shows, with their field.
+#[test]
+fn mistakes_of_meaning_name_their_field() {
+    let cases: &[(&str, &str)] = &[
         (
-            "film: () film: ()",
-            "3:12: expected comma, found `film`",
+            "film: (width: 32768, height: 32768)",
+            "film: expected at most 67108864 pixels, found 32768 x 32768",
+        ),
+        (
+            "film: (width: 8192, height: 8192)",
+            "film: expected a film of at most 8 GiB, found 8192 x 8192 pixels of 192 bytes (12.0 GiB)",
+        ),
+        (
+            "film: (filter: Gaussian(sigma: 1, radius: 9))",
+            "film.filter: expected sigma and radius of at most 8 pixels, found 1 and 9",
+        ),
+        (
+            "render: (spectrum: \"bins8\")",
+            "render.spectrum: \"bins8\" is not supported yet; only \"rgb\" is",
+        ),
+        (
+            "main_material: \"m\"",
+            "main_material: expected the name of a material (), found \"m\"",
+        ),
+        (
+            "materials: { \"m\": Lambert(reflectance: 1.5) }",
+            "materials.m.reflectance: expected an albedo from 0 to 1, found 1.5",
+        ),
+        (
+            "materials: { \"m\": Mix(parts: [(\"m\", 1)]) }",
+            "materials.m.parts: expected parts that are not mixtures, found \"m\"",
+        ),
+        (
+            "lights: [Constant(radiance: 1), Constant(radiance: 2)]",
+            "lights: expected at most one Constant or Image light, found 2",
+        ),
+        (
+            "lights: [Directional(direction: (0, 0, 0), irradiance: 1)]",
+            "lights[0].direction: expected a direction, found the zero vector",
         ),
     ];
     for (fields, expected) in cases {
         assert_eq!(error(&scene(fields)), *expected, "{fields}");
     }
+}
+
+#[test]
+fn one_sample_a_pixel_needs_one_sum_a_pixel() {
+    let text = scene("film: (width: 8192, height: 8192), render: (spp: 1)");
+    SceneFile::from_text(&text, Path::new("scene.ron"), Path::new("")).unwrap();
 }
