@@ -315,3 +315,48 @@ fn scaled(table: Arc<HalfDiffTable>, scale: [f64; 3]) -> Result<Arc<HalfDiffTabl
 fn is_one(scale: [f64; 3]) -> bool {
     scale.iter().all(|s| (s - 1.0).abs() == 0.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grid(phi: PhiDomain, status: impl Fn(DVec3) -> Status + Sync) -> Surface {
+        let table = HalfDiffTable::from_fn([18, 6, 12], phi, srgb(), |wi, wo, out| {
+            out.fill(0.3);
+            status((wi + wo).normalize())
+        });
+        Surface::grid(Arc::new(table), Interpolation::Linear, Vec::new()).unwrap()
+    }
+
+    fn diffuse() -> Surface {
+        Surface::of_model("lambert:kd=0.5", &MaterialOptions::default()).unwrap()
+    }
+
+    fn mixed(part: Surface) -> Arc<HalfDiffTable> {
+        let mix = Surface::mix(&[(part, 0.5), (diffuse(), 0.5)]).unwrap();
+        match mix.form {
+            Form3::Grid(grid) => Arc::clone(grid.table()),
+            _ => panic!("a mixture is a grid"),
+        }
+    }
+
+    #[test]
+    fn a_mixture_was_measured_only_where_all_parts_were() {
+        let status = |half: DVec3| match half.z > 0.7 {
+            true => Status::Measured,
+            false => Status::Filled,
+        };
+        let table = mixed(grid(PhiDomain::Reciprocal, status));
+        assert_eq!(table.dims(), [90, 90, 180]);
+        assert!(table.is_valid([5, 5, 90]), "near the normal");
+        // theta_h of cell 80 is 71 degrees
+        assert!(!table.is_valid([80, 5, 90]), "toward grazing");
+    }
+
+    #[test]
+    fn a_mixture_that_is_not_reciprocal_keeps_one_degree_of_azimuth() {
+        let table = mixed(grid(PhiDomain::Mirror, |_| Status::Measured));
+        assert_eq!(table.dims(), [90, 90, 360]);
+        assert_eq!(table.phi_domain(), PhiDomain::Full);
+    }
+}

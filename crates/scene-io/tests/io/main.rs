@@ -2,11 +2,11 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests may fail like tests")]
 #![expect(clippy::float_cmp, reason = "files keep every bit")]
-#![expect(clippy::print_stdout, reason = "what is skipped is said")]
 
 mod files;
 mod malformed_files;
 mod malformed_scenes;
+mod measured;
 mod pictures;
 mod real_files;
 mod rendered;

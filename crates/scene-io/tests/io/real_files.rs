@@ -6,11 +6,7 @@ use scene_io::{Cache, DataDirs, Overrides, Places, SceneFile, build_scene};
 use std::path::Path;
 
 fn data() -> Option<DataDirs> {
-    let folders = std::env::var_os("GONIO_DATA");
-    if folders.is_none() {
-        println!("skipped: GONIO_DATA is not set");
-    }
-    Some(DataDirs::new(std::env::split_paths(&folders?)))
+    testkit::data_dir_or_skip().map(|folder| DataDirs::new([folder]))
 }
 
 #[test]

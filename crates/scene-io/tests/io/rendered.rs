@@ -68,7 +68,7 @@ fn the_closed_form_scene_is_its_formula() {
     assert!((0.9..2.0).contains(&mean_square), "mean z^2 {mean_square}");
     let z: f64 = sum / f64::sqrt(sum_of_variance);
     assert!(
-        z.abs() < 4.0,
+        z.abs() < 3.0,
         "the whole picture is off by {z} standard errors"
     );
 }
