@@ -1,18 +1,24 @@
-//! Relative variance, cost and size of the samplers on MERL files.
+//! Relative variance, cost and size of the samplers on measured files: MERL, Cornell (through the grid that rendering
+//! reads) and RGL.
 //!
-//! `cargo run --release -p brdf-sampling --example relvar -- [--methods=default,fine,cosine] FILE.binary ...`
+//! `cargo run --release -p brdf-sampling --example relvar -- [--methods=default,fine,cosine] [--colour] FILE ...`
+//!
+//! Nanoseconds are the best of 40 runs. With `--colour` the target is the one for all channels: then `albedo^2 - 1` is
+//! the floor J* of the variance averaged over channels, and the sampler's own variance comes on top as a factor.
 #![expect(clippy::print_stdout, reason = "a program")]
 #![expect(clippy::disallowed_methods, reason = "reads the files it is told")]
 
 use brdf::{DirectionSampler, Measured, direction};
-use brdf_formats::{MERL_SCALE, MerlFile};
+use brdf_formats::File;
 use brdf_sampling::{
-    Cosine, Dictionary, Hvt, HvtOptions, Inversion, InversionOptions, Preset, Target,
+    ColourTarget, Cosine, Dictionary, Hvt, HvtOptions, Inversion, InversionOptions, Preset, Target,
     relative_variance,
 };
-use brdf_table::{CellPolicy, Gridded, Interpolation, PhiDomain, TableBuilder};
+use brdf_table::scattered::{DEFAULT_DIMS, Domain};
+use brdf_table::{
+    CellPolicy, Gridded, HalfDiffTable, Interpolation, RglTable, SampleCloud, ThinPlate, resample,
+};
 use glam::{DVec2, DVec3};
-use spectrum::{Basis, RgbSpace};
 use std::error::Error;
 use std::hint::black_box;
 use std::sync::Arc;
@@ -26,25 +32,30 @@ fn off_grid(k: usize) -> f64 {
     1.37 + 3.61 * k as f64
 }
 
-fn luminance(c: &[f64]) -> f64 {
-    0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]
-}
-
-fn load(path: &str) -> Result<Gridded, Box<dyn Error>> {
-    let file = MerlFile::from_bytes(std::fs::read(path)?)?;
-    let dims = file.dims().map(|n| n as usize);
-    let basis = Basis::Rgb(RgbSpace::srgb());
-    let mut builder = TableBuilder::new(dims, PhiDomain::Reciprocal, basis, MERL_SCALE.to_vec())?;
-    let cells = dims.iter().product::<usize>();
-    for channel in 0..3 {
-        let plane: Vec<f64> = (0..cells).map(|k| file.value(channel, k)).collect();
-        builder.push(&plane)?;
-    }
-    let (table, _) = builder.finish(CellPolicy::AnyNegative)?;
-    Ok(Gridded {
+fn load(path: &str) -> Result<Arc<dyn Measured>, Box<dyn Error>> {
+    let linear = |table: HalfDiffTable| Gridded {
         table: Arc::new(table),
         interpolation: Interpolation::Linear,
-    })
+    };
+    let cloud = match brdf_formats::read(std::fs::read(path)?)? {
+        File::Merl(file) => {
+            let (table, _) = HalfDiffTable::from_merl(&file, CellPolicy::AnyNegative)?;
+            return Ok(Arc::new(linear(table)));
+        }
+        File::Rgl(file) => return Ok(Arc::new(RglTable::new(&file)?)),
+        File::Astm(file) => SampleCloud::from_astm(&file)?,
+        File::PbrtText(file) => SampleCloud::from_pbrt_text(&file)?,
+        _ => return Err("no table is made of this format here".into()),
+    };
+    let resampled = resample(&ThinPlate::new(&cloud)?, &Domain::new(&cloud), DEFAULT_DIMS);
+    Ok(Arc::new(linear(resampled.table)))
+}
+
+/// The native channels of a table, up to as many as spectral files have.
+fn channels(table: &dyn Measured, wi: DVec3, wo: DVec3) -> [f64; 80] {
+    let mut out = [0.0; 80];
+    table.eval_native(wi, wo, &mut out[..table.basis().len()]);
+    out
 }
 
 enum Method {
@@ -94,6 +105,8 @@ struct Row {
     mean: f64,
     worst: f64,
     max_weight: f64,
+    wasted: f64,
+    albedo: f64,
     build_ms: f64,
     sample_ns: f64,
     pdf_ns: f64,
@@ -113,6 +126,8 @@ fn measure(target: Target<'_>, build: &dyn Fn() -> Box<dyn DirectionSampler>) ->
         mean: all.iter().map(|v| v.value).sum::<f64>() / 24.0,
         worst: all.iter().fold(0.0, |m, v| v.value.max(m)),
         max_weight: all.iter().fold(0.0, |m, v| v.max_weight.max(m)),
+        wasted: all.iter().fold(0.0, |m, v| v.wasted.max(m)),
+        albedo: all.iter().map(|v| v.albedo).sum::<f64>() / 24.0,
         build_ms,
         sample_ns,
         pdf_ns,
@@ -158,44 +173,44 @@ fn cost(sampler: &dyn DirectionSampler) -> (f64, f64) {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut names = vec!["default".to_string()];
-    let mut files = Vec::new();
+    let (mut files, mut colour) = (Vec::new(), false);
     for arg in std::env::args().skip(1) {
         match arg.strip_prefix("--methods=") {
             Some(list) => names = list.split(',').map(String::from).collect(),
+            None if arg == "--colour" => colour = true,
             None => files.push(arg),
         }
     }
     let (sample_ns, pdf_ns) = cost(&Cosine);
     println!("for comparison, cosine: {sample_ns:.1} ns sample, {pdf_ns:.1} ns pdf");
+    let mut tables = Vec::new();
+    for path in &files {
+        tables.push((path.rsplit('/').next().unwrap_or(path), load(path)?));
+    }
     for name in &names {
         let method = Method::parse(name)
             .ok_or("methods: a preset, AxBxC, cosine, inversion, ggx, dictionary")?;
         let mut means = Vec::new();
         println!(
-            "## {name}\nmaterial | bytes | build ms | ns sample | ns pdf | {SHOWN_DEG:?} | mean | worst angle | max w"
+            "## {name}\nmaterial | bytes | build ms | ns sample | ns pdf | {SHOWN_DEG:?} | {SUMMARY}"
         );
-        for path in &files {
-            let table = load(path)?;
-            let f = |wi: DVec3, wo: DVec3| {
-                let mut rgb = [0.0; 3];
-                table.eval_native(wi, wo, &mut rgb);
-                luminance(&rgb)
+        for (stem, table) in &tables {
+            let weights = table.basis().luminance_weights();
+            let luminance = |wi: DVec3, wo: DVec3| {
+                let values = channels(&**table, wi, wo);
+                values.iter().zip(&weights).map(|(v, w)| v * w).sum()
+            };
+            let all = |wi: DVec3, wo: DVec3, out: &mut [f64]| {
+                out.copy_from_slice(&channels(&**table, wi, wo)[..out.len()]);
+            };
+            let star = colour.then(|| ColourTarget::new(all, weights.len()));
+            let f = |wi: DVec3, wo: DVec3| match &star {
+                Some(star) => star.eval(wi, wo),
+                None => luminance(wi, wo),
             };
             let target = Target::new(&f);
             let row = measure(target, &|| method.build(target));
-            let shown: Vec<String> = row.shown.iter().map(|v| format!("{v:.5}")).collect();
-            let stem = path.rsplit('/').next().unwrap_or(path);
-            println!(
-                "{stem:30} | {} | {:.0} | {:.0} | {:.0} | {} | {:.5} | {:.5} | {:.2}",
-                row.bytes,
-                row.build_ms,
-                row.sample_ns,
-                row.pdf_ns,
-                shown.join(" "),
-                row.mean,
-                row.worst,
-                row.max_weight
-            );
+            print_row(stem, &row);
             means.push(row.mean);
         }
         means.sort_by(f64::total_cmp);
@@ -204,4 +219,24 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     Ok(())
+}
+
+/// What follows the angles in a row.
+const SUMMARY: &str = "mean | worst angle | max w | wasted | albedo";
+
+fn print_row(stem: &str, row: &Row) {
+    let shown: Vec<String> = row.shown.iter().map(|v| format!("{v:.5}")).collect();
+    println!(
+        "{stem:30} | {} | {:.0} | {:.0} | {:.0} | {} | {:.5} | {:.5} | {:.2} | {:.4} | {:.4}",
+        row.bytes,
+        row.build_ms,
+        row.sample_ns,
+        row.pdf_ns,
+        shown.join(" "),
+        row.mean,
+        row.worst,
+        row.max_weight,
+        row.wasted,
+        row.albedo
+    );
 }

@@ -4,6 +4,7 @@ use crate::viewer;
 use brdf::{DirectionSampler, direction};
 use brdf_sampling::{Hvt, Preset, Target};
 use glam::{DVec2, DVec3};
+use std::f64::consts::TAU;
 
 #[test]
 fn slow_sample_and_pdf_agree_over_a_million_draws() {
@@ -20,7 +21,7 @@ fn slow_sample_and_pdf_agree_over_a_million_draws() {
             let mut off: Vec<f64> = (0..DRAWS)
                 .map(|_| {
                     let [x, y] = rng.uniform2();
-                    let wo = direction((1.0 - x).acos(), 6.28 * y);
+                    let wo = direction((1.0 - x).acos(), TAU * y);
                     let wo = if wo.z > 0.0 { wo } else { viewer(89.0) };
                     let s = sampler.sample(wo, DVec2::from(rng.uniform2()));
                     let s = s.expect("nothing is wasted");
