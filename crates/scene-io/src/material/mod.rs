@@ -33,5 +33,5 @@ pub fn material_rgb(
     options: &MaterialOptions,
     cache: &Cache,
 ) -> Result<(Box<dyn Material<3>>, SamplerReport), Error> {
-    Surface::of_file(loaded, options)?.material(options.sampler, cache)
+    Surface::of_file(loaded, options, cache)?.material(options.sampler, cache)
 }

@@ -58,15 +58,21 @@ impl Surface {
     /// A measured file. Grids stay as they are; thin plates, slow to evaluate, are resampled onto one. Everything else
     /// is rendered through its own answers: a grid would smooth the steps of `nearest`.
     ///
+    /// The grid of a thin plate is kept in `cache`.
+    ///
     /// # Errors
     /// If the channels cannot be converted.
-    pub fn of_file(loaded: &LoadedMeasured, options: &MaterialOptions) -> Result<Self, Error> {
+    pub fn of_file(
+        loaded: &LoadedMeasured,
+        options: &MaterialOptions,
+        cache: &Cache,
+    ) -> Result<Self, Error> {
         let mut notes = loaded.notes();
         let (table, interpolation) = match &loaded.form {
             Form::Rgl(table, key) => return Self::rgl(table, (*key, notes), options.scale),
             Form::Grid(grid) => (Arc::clone(&grid.table), grid.interpolation),
-            Form::ThinPlate(plate) => (
-                Arc::new(from_plate(plate, &mut notes)?),
+            Form::ThinPlate(plate, key) => (
+                Arc::new(from_plate(plate, (*key, cache), &mut notes)?),
                 Interpolation::Linear,
             ),
             Form::Opaque(key) => {
@@ -279,12 +285,19 @@ fn srgb() -> Basis {
     Basis::Rgb(RgbSpace::srgb())
 }
 
-fn from_plate(plate: &ThinPlate, notes: &mut Vec<String>) -> Result<HalfDiffTable, Error> {
+fn from_plate(
+    plate: &ThinPlate,
+    (key, cache): (u64, &Cache),
+    notes: &mut Vec<String>,
+) -> Result<HalfDiffTable, Error> {
     let matrix = plate.basis().to_linear_srgb();
     let plate = plate
         .to_basis(srgb(), &matrix)
         .map_err(|e| Error::invalid(e.to_string()))?;
-    let resampled = resample(&plate, plate.domain(), DEFAULT_DIMS);
+    let [n_h, n_d, n_p] = DEFAULT_DIMS.map(|n| n as u64);
+    let resampled = cache.grid(combine(&[key, n_h, n_d, n_p]), notes, || {
+        resample(&plate, plate.domain(), DEFAULT_DIMS)
+    });
     notes.push(format!(
         "resampled onto {} x {} x {} cells, RMS error {:.2} % of the mean",
         DEFAULT_DIMS[0],
