@@ -8,6 +8,7 @@ mod identity;
 mod loaded;
 mod measured_file;
 mod measured_model;
+mod native;
 mod options;
 mod pair;
 mod scattered;
