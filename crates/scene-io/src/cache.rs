@@ -1,8 +1,11 @@
 //! What is slow to compute and quick to read: kept on disk, rebuilt whenever in doubt.
 
+mod grid;
+
 use crate::sealed::{Label, content_hash, seal, unseal};
 use crate::{load, write};
 use brdf_sampling::{Proposal, RejectionCache};
+use brdf_table::Resampled;
 use std::path::{Path, PathBuf};
 
 /// Raised whenever the search for maxima or the layout below changes.
@@ -30,8 +33,7 @@ impl Cache {
     /// Where the rejection maxima for `key` are kept.
     #[must_use]
     pub fn rejection_path(&self, key: u64) -> Option<PathBuf> {
-        let folder = self.folder.as_ref()?;
-        Some(folder.join(format!("rejection-{key:016x}.gonio")))
+        self.path(REJECTION.name, key)
     }
 
     /// The maxima for `key`: from disk if a sound file is there, else from `build`, and then kept.
@@ -44,51 +46,106 @@ impl Cache {
         notes: &mut Vec<String>,
         build: impl FnOnce() -> RejectionCache,
     ) -> RejectionCache {
-        let Some(path) = self.rejection_path(key) else {
+        self.stored(&REJECTION, key, notes, build)
+    }
+
+    /// Where the grid for `key` is kept.
+    #[must_use]
+    pub fn grid_path(&self, key: u64) -> Option<PathBuf> {
+        self.path(grid::KIND.name, key)
+    }
+
+    /// The resampled interpolant for `key`, in linear sRGB: as [`Self::rejection`].
+    ///
+    /// `key` identifies the file, the policies and the cells.
+    pub fn grid(
+        &self,
+        key: u64,
+        notes: &mut Vec<String>,
+        build: impl FnOnce() -> Resampled,
+    ) -> Resampled {
+        self.stored(&grid::KIND, key, notes, build)
+    }
+
+    fn path(&self, name: &str, key: u64) -> Option<PathBuf> {
+        let folder = self.folder.as_ref()?;
+        Some(folder.join(format!("{name}-{key:016x}.gonio")))
+    }
+
+    fn stored<T>(
+        &self,
+        kind: &Kind<T>,
+        key: u64,
+        notes: &mut Vec<String>,
+        build: impl FnOnce() -> T,
+    ) -> T {
+        let Some(path) = self.path(kind.name, key) else {
             return build();
         };
         if path.exists() {
-            match read(&path, key) {
-                Ok(cache) => return cache,
+            match kind.read(&path, key) {
+                Ok(content) => return content,
                 Err(why) => notes.push(format!("{}: ignored, {why}; rebuilt", path.display())),
             }
         }
-        let cache = build();
-        if let Err(e) = self.keep(&path, key, &cache) {
-            notes.push(format!("rejection maxima are not kept: {e}"));
+        let content = build();
+        if let Err(e) = self.keep(&path, &seal(kind.label(key), &(kind.encode)(&content))) {
+            notes.push(format!("the {} is not kept: {e}", kind.name));
         }
-        cache
+        content
     }
 
-    fn keep(&self, path: &Path, key: u64, cache: &RejectionCache) -> Result<(), crate::Error> {
+    fn keep(&self, path: &Path, sealed: &[u8]) -> Result<(), crate::Error> {
         if let Some(folder) = &self.folder {
             write::folder(folder)?;
         }
-        write::bytes(path, &seal(label(key), &encode(cache)))
+        write::bytes(path, sealed)
     }
 }
+
+/// One kind of content and how it is stored.
+struct Kind<T> {
+    tag: [u8; 4],
+    version: u32,
+    /// Beginning of the file names.
+    name: &'static str,
+    encode: fn(&T) -> Vec<u8>,
+    decode: fn(&[u8]) -> Result<T, String>,
+}
+
+impl<T> Kind<T> {
+    const fn label(&self, key: u64) -> Label {
+        Label {
+            kind: self.tag,
+            version: self.version,
+            key,
+        }
+    }
+
+    fn read(&self, path: &Path, key: u64) -> Result<T, String> {
+        let bytes = load::bytes(path, MAX_BYTES).map_err(|e| e.to_string())?;
+        let payload = unseal(self.label(key), &bytes).map_err(|e| e.to_string())?;
+        (self.decode)(payload)
+    }
+}
+
+const REJECTION: Kind<RejectionCache> = Kind {
+    tag: *b"REJM",
+    version: VERSION,
+    name: "rejection",
+    encode,
+    decode: |payload| {
+        let cache = decode(payload).ok_or("its content contradicts itself")?;
+        cache.check().map_err(|e| e.to_string())?;
+        Ok(cache)
+    },
+};
 
 /// One key from several: the order matters.
 #[must_use]
 pub(crate) fn combine(parts: &[u64]) -> u64 {
     let bytes: Vec<u8> = parts.iter().flat_map(|p| p.to_le_bytes()).collect();
     content_hash(&bytes)
-}
-
-const fn label(key: u64) -> Label {
-    Label {
-        kind: *b"REJM",
-        version: VERSION,
-        key,
-    }
-}
-
-fn read(path: &Path, key: u64) -> Result<RejectionCache, String> {
-    let bytes = load::bytes(path, MAX_BYTES).map_err(|e| e.to_string())?;
-    let payload = unseal(label(key), &bytes).map_err(|e| e.to_string())?;
-    let cache = decode(payload).ok_or("its content contradicts itself")?;
-    cache.check().map_err(|e| e.to_string())?;
-    Ok(cache)
 }
 
 /// Three u64 (elevations, azimuths, proposal), then maxima, then integrals, f64.

@@ -89,7 +89,10 @@ fn surface(
             let path = places.data.find(&m.path, &m.home)?;
             let options = MaterialOptions::of_file(m, default);
             let loaded = load_measured(&path, &options)?;
-            Ok((Surface::of_file(&loaded, &options)?, Some(path)))
+            Ok((
+                Surface::of_file(&loaded, &options, &places.cache)?,
+                Some(path),
+            ))
         }
         MaterialSpec::Model(m) => {
             let options = MaterialOptions::of_model(m, default);

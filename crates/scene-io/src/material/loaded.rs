@@ -60,7 +60,8 @@ pub enum Detail {
 #[derive(Clone)]
 pub(super) enum Form {
     Grid(Gridded),
-    ThinPlate(Arc<ThinPlate>),
+    /// With the hash of file and policies.
+    ThinPlate(Arc<ThinPlate>, u64),
     /// With the hash of its file.
     Rgl(Arc<RglTable>, u64),
     /// Only ever asked through `measured`; with the hash of file and choices.

@@ -8,6 +8,7 @@ mod identity;
 mod loaded;
 mod measured_file;
 mod measured_model;
+mod native;
 mod options;
 mod pair;
 mod scattered;
@@ -34,5 +35,5 @@ pub fn material_rgb(
     options: &MaterialOptions,
     cache: &Cache,
 ) -> Result<(Box<dyn Material<3>>, SamplerReport), Error> {
-    Surface::of_file(loaded, options)?.material(options.sampler, cache)
+    Surface::of_file(loaded, options, cache)?.material(options.sampler, cache)
 }

@@ -124,7 +124,9 @@ fn thin_plate(
     cloud: &SampleCloud,
     options: &MaterialOptions,
 ) -> Result<LoadedMeasured, Error> {
-    let plate = ThinPlate::with_policies(cloud, policies(options)).map_err(invalid)?;
+    let policies = policies(options);
+    let plate = ThinPlate::with_policies(cloud, policies).map_err(invalid)?;
+    let key = combine(&[of.key, content_hash(format!("{policies:?}").as_bytes())]);
     let plate = Arc::new(plate);
     Ok(LoadedMeasured {
         measured: Arc::clone(&plate) as Arc<dyn Measured>,
@@ -135,6 +137,6 @@ fn thin_plate(
             rows: cloud.len(),
             fill: Box::new(plate.report()),
         },
-        form: Form::ThinPlate(plate),
+        form: Form::ThinPlate(plate, key),
     })
 }

@@ -2,13 +2,14 @@
 
 use super::loaded::{Form, LoadedMeasured};
 use super::measured_model;
+use super::native::Native;
 use super::options::MaterialOptions;
 use super::pair::{self, SamplerReport};
 use crate::cache::{Cache, combine};
 use crate::error::Error;
 use crate::scene::{InterpolationName, SamplerName};
 use crate::sealed::content_hash;
-use brdf::{Brdf, DirectionSampler, Material, Measured, Paired, Projected, Status, Symmetry};
+use brdf::{Brdf, Material, Measured, Status, Symmetry};
 use brdf_measure::MERL_DIMS;
 use brdf_models::{Built, ParsedModel, parse_model};
 use brdf_table::scattered::DEFAULT_DIMS;
@@ -34,18 +35,6 @@ enum Form3 {
     Native(Native),
 }
 
-/// A measurement that is asked in its own channels.
-struct Native {
-    brdf: Arc<dyn Brdf<3>>,
-    measured: Arc<dyn Measured>,
-    /// What one unit of each channel adds to linear sRGB.
-    matrix: Vec<[f64; 3]>,
-    /// The sampling that comes with the file.
-    sampler: Option<Arc<RglTable>>,
-    /// What tells it from others.
-    key: u64,
-}
-
 impl fmt::Debug for Surface {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Surface")
@@ -58,15 +47,21 @@ impl Surface {
     /// A measured file. Grids stay as they are; thin plates, slow to evaluate, are resampled onto one. Everything else
     /// is rendered through its own answers: a grid would smooth the steps of `nearest`.
     ///
+    /// The grid of a thin plate is kept in `cache`.
+    ///
     /// # Errors
     /// If the channels cannot be converted.
-    pub fn of_file(loaded: &LoadedMeasured, options: &MaterialOptions) -> Result<Self, Error> {
+    pub fn of_file(
+        loaded: &LoadedMeasured,
+        options: &MaterialOptions,
+        cache: &Cache,
+    ) -> Result<Self, Error> {
         let mut notes = loaded.notes();
         let (table, interpolation) = match &loaded.form {
             Form::Rgl(table, key) => return Self::rgl(table, (*key, notes), options.scale),
             Form::Grid(grid) => (Arc::clone(&grid.table), grid.interpolation),
-            Form::ThinPlate(plate) => (
-                Arc::new(from_plate(plate, &mut notes)?),
+            Form::ThinPlate(plate, key) => (
+                Arc::new(from_plate(plate, (*key, cache), &mut notes)?),
                 Interpolation::Linear,
             ),
             Form::Opaque(key) => {
@@ -226,51 +221,6 @@ impl Surface {
     }
 }
 
-impl Native {
-    fn new(measured: Arc<dyn Measured>, key: u64, scale: [f64; 3]) -> Result<Self, Error> {
-        let mut matrix = measured.basis().to_linear_srgb();
-        for row in &mut matrix {
-            (0..3).for_each(|c| row[c] *= scale[c]);
-        }
-        let brdf = Projected::new(Arc::clone(&measured), matrix.clone()).ok_or_else(|| {
-            Error::invalid("expected as many channels as the basis has, found others")
-        })?;
-        let bits = scale.map(f64::to_bits);
-        Ok(Self {
-            brdf: Arc::new(brdf),
-            measured,
-            matrix,
-            sampler: None,
-            key: combine(&[key, bits[0], bits[1], bits[2]]),
-        })
-    }
-
-    fn eval(&self, wi: DVec3, wo: DVec3) -> ([f64; 3], Status) {
-        let mut native = vec![0.0; self.matrix.len()];
-        let status = self.measured.eval_native(wi, wo, &mut native);
-        let mut out = [0.0; 3];
-        for (value, row) in native.iter().zip(&self.matrix) {
-            (0..3).for_each(|c| out[c] += value * row[c]);
-        }
-        (out, status)
-    }
-
-    fn material(
-        self,
-        name: SamplerName,
-        cache: &Cache,
-    ) -> Result<(Box<dyn Material<3>>, SamplerReport), Error> {
-        let brdf = self.brdf;
-        match (name, self.sampler) {
-            (SamplerName::Native, Some(sampler)) => {
-                let report = SamplerReport::new(SamplerName::Native, sampler.bytes());
-                Ok((Box::new(Paired { brdf, sampler }), report))
-            }
-            _ => pair::pair(brdf, name, (|_: &_| self.key, cache)),
-        }
-    }
-}
-
 fn parse(text: &str) -> Result<ParsedModel<3>, Error> {
     parse_model(text).map_err(|e| Error::invalid(e.to_string()).in_field("model"))
 }
@@ -279,12 +229,19 @@ fn srgb() -> Basis {
     Basis::Rgb(RgbSpace::srgb())
 }
 
-fn from_plate(plate: &ThinPlate, notes: &mut Vec<String>) -> Result<HalfDiffTable, Error> {
+fn from_plate(
+    plate: &ThinPlate,
+    (key, cache): (u64, &Cache),
+    notes: &mut Vec<String>,
+) -> Result<HalfDiffTable, Error> {
     let matrix = plate.basis().to_linear_srgb();
     let plate = plate
         .to_basis(srgb(), &matrix)
         .map_err(|e| Error::invalid(e.to_string()))?;
-    let resampled = resample(&plate, plate.domain(), DEFAULT_DIMS);
+    let [n_h, n_d, n_p] = DEFAULT_DIMS.map(|n| n as u64);
+    let resampled = cache.grid(combine(&[key, n_h, n_d, n_p]), notes, || {
+        resample(&plate, plate.domain(), DEFAULT_DIMS)
+    });
     notes.push(format!(
         "resampled onto {} x {} x {} cells, RMS error {:.2} % of the mean",
         DEFAULT_DIMS[0],

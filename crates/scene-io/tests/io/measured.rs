@@ -235,7 +235,7 @@ fn the_older_schemes_are_rendered_as_they_answer() {
         let loaded = load_measured(&path, &options).unwrap();
         let matrix = loaded.measured.basis().to_linear_srgb();
         let exact = Projected::new(Arc::clone(&loaded.measured), matrix).unwrap();
-        let surface = Surface::of_file(&loaded, &options).unwrap();
+        let surface = Surface::of_file(&loaded, &options, &Cache::default()).unwrap();
         for (wi, wo) in pairs() {
             assert_eq!(surface.brdf().eval(wi, wo), exact.eval(wi, wo), "{name}");
         }
@@ -301,4 +301,31 @@ fn scenes_choose_policies_and_roulette() {
     let text = text.replace("roulette: 3", "seed: 1");
     let scene = SceneFile::from_text(&text, Path::new(""), Path::new("")).unwrap();
     assert_eq!(scene.render.roulette, None);
+}
+
+#[test]
+fn the_grid_of_a_thin_plate_is_kept_and_rebuilt_if_damaged() {
+    let (folder, path) = rows();
+    let cache = Cache::at(folder.path().join("cache"));
+    let options = MaterialOptions::default();
+    let loaded = load_measured(&path, &options).unwrap();
+    let notes = |cache: &Cache| {
+        let surface = Surface::of_file(&loaded, &options, cache).unwrap();
+        let values: Vec<_> = pairs().map(|(i, o)| surface.brdf().eval(i, o)).collect();
+        let (_, report) = surface.material(SamplerName::Cosine, cache).unwrap();
+        (values, report.notes)
+    };
+    let fresh = notes(&Cache::default());
+    assert_eq!(notes(&cache), fresh, "when built");
+    let entries = std::fs::read_dir(folder.path().join("cache")).unwrap();
+    let files: Vec<PathBuf> = entries.map(|e| e.unwrap().path()).collect();
+    assert_eq!(files.len(), 1, "{files:?}");
+    let mut bytes = scene_io::load::bytes(&files[0], 1 << 26).unwrap();
+    assert_eq!(notes(&cache), fresh, "from the cache");
+    bytes[5000] ^= 4;
+    write::bytes(&files[0], &bytes).unwrap();
+    let (values, said) = notes(&cache);
+    assert_eq!(values, fresh.0, "rebuilt");
+    assert!(said.iter().any(|n| n.contains("checksum")), "{said:?}");
+    assert_eq!(notes(&cache), fresh, "and kept again");
 }
