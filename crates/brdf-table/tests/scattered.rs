@@ -234,6 +234,108 @@ fn the_continuation_beyond_the_edge_neither_jumps_nor_falls() {
     assert!(mirror.windows(2).all(|w| w[1] >= w[0]), "{mirror:?}");
 }
 
+/// Largest ratio of luminances, floored at a thousandth of the rows' mean, between neighbours 0.1 degree apart
+/// on random lines over all of the hemisphere's pairs, and on lines beside the edge.
+fn steepest(m: &dyn Measured, cloud: &SampleCloud) -> (f64, Geometry) {
+    let weights = m.basis().luminance_weights();
+    let rows = cloud.len();
+    let floor = 1e-3 * (0..rows).map(|r| cloud.luminance(r).abs()).sum::<f64>() / rows as f64;
+    let size = |g: Geometry| {
+        let f = eval(m, g).0;
+        f.iter()
+            .zip(&weights)
+            .map(|(f, w)| f * w)
+            .sum::<f64>()
+            .max(0.0)
+            + floor
+    };
+    let mut rng = sampling::Rng::new(0x5ca7);
+    let mut worst = (1.0, at(0.0, 0.0, 0.0));
+    for line in 0..240 {
+        let mut point = [60.0, 60.0, 0.0].map(|least| least + (89.0 - least) * rng.uniform());
+        point[2] = 180.0 * rng.uniform();
+        let mut along = [rng.normal(), rng.normal(), rng.normal()];
+        if line % 3 > 0 {
+            // beside the last rows of one of the two directions
+            point[line % 3 - 1] = 80.0 + 0.5 * (rng.uniform() - 0.5);
+            along[line % 3 - 1] *= 0.02;
+        }
+        let step = 0.1 / (along[0].powi(2) + along[1].powi(2) + along[2].powi(2)).sqrt();
+        let pair = |k: i32| {
+            let x: [f64; 3] = std::array::from_fn(|a| point[a] + f64::from(k) * step * along[a]);
+            let inside = x[0].max(x[1]) < 89.9 && x[0].min(x[1]) > 20.0;
+            (inside && (0.0..=180.0).contains(&x[2])).then(|| at(x[0], x[1], x[2]))
+        };
+        let sizes: Vec<(f64, Geometry)> = (0..60).map_while(pair).map(|g| (size(g), g)).collect();
+        for w in sizes.windows(2) {
+            let ratio = (w[0].0 / w[1].0).max(w[1].0 / w[0].0);
+            if ratio > worst.0 {
+                worst = (ratio, w[1].1);
+            }
+        }
+    }
+    worst
+}
+
+#[test]
+fn neighbours_never_differ_by_much() {
+    let cloud = synthetic();
+    let worst = steepest(&ThinPlate::new(&cloud).unwrap(), &cloud);
+    // the lobe's steepest relative slope is below 30 per radian: 1.05 over 0.1 degree
+    assert!(worst.0 < 1.1, "{worst:?}");
+}
+
+#[test]
+fn negatives_of_the_thesis_schemes_follow_their_policy() {
+    let angles = cornell_grid();
+    let values: Vec<f64> = angles.iter().flat_map(|_| [-0.01, 0.2, 0.1]).collect();
+    let cloud = SampleCloud::new(Basis::Rgb(RgbSpace::srgb()), &angles, &values).unwrap();
+    let build = |negatives| -> Vec<Box<dyn Measured>> {
+        let layered = |mode| LayeredTable::new(&cloud, mode).with_negatives(negatives);
+        vec![
+            Box::new(layered(LayerMode::Linear)),
+            Box::new(layered(LayerMode::LogLinear)),
+            Box::new(KdNearest::new(&cloud).unwrap().with_negatives(negatives)),
+        ]
+    };
+    // between rows, and at one
+    for g in [at(33.0, 44.0, 100.0), cloud.geometry()[0]] {
+        for m in build(NegativePolicy::Keep) {
+            assert!((eval(&*m, g).0[0] + 0.01).abs() < 1e-9, "kept at {g:?}");
+        }
+        for m in build(NegativePolicy::Clamp) {
+            let out = eval(&*m, g).0;
+            assert_eq!(out[0].to_bits(), 0.0_f64.to_bits(), "clamped at {g:?}");
+            // a constant, up to the rounding of its log
+            assert!((out[1] - 0.2).abs() < 1e-9, "the others stay: {out:?}");
+        }
+    }
+}
+
+#[test]
+fn too_many_rows_for_a_dense_system_are_refused() {
+    let angle = |k: u32| {
+        [
+            0.1 + f64::from(k / 100) * 0.01,
+            0.0,
+            0.1 + f64::from(k % 100) * 0.01,
+            1.0,
+        ]
+    };
+    let angles: Vec<[f64; 4]> = (0..6001).map(angle).collect();
+    let cloud = SampleCloud::new(Basis::Xyz, &angles, &vec![0.1; 3 * angles.len()]).unwrap();
+    let error = ThinPlate::new(&cloud).unwrap_err();
+    assert_eq!(
+        error,
+        CloudError::TooManyRows {
+            found: 6001,
+            limit: 6000
+        },
+        "one row above the limit"
+    );
+    assert!(error.to_string().contains("layered"), "{error}");
+}
+
 #[test]
 fn directions_below_the_horizon_give_zero() {
     let plate = ThinPlate::new(&synthetic()).unwrap();
@@ -465,6 +567,9 @@ fn slow_cornell_files_meet_the_goals() {
             scores.relative_l2 < l2,
             "{name}: {scores:?}, a local fit has {l2}"
         );
+        let worst = steepest(&plate, &rgb);
+        println!("{name}: largest ratio of neighbours {worst:?}");
+        assert!(worst.0 < 1.1, "{name}: {worst:?}");
         let grid = resample(&plate, plate.domain(), brdf_table::scattered::DEFAULT_DIMS);
         assert!(
             grid.relative_error() <= 0.01,

@@ -63,24 +63,54 @@ impl Domain {
         }
     }
 
-    /// The most grazing pair within the limits on the path of constant theta_h and phi_d.
+    /// The pair on the edge that is reached by shrinking theta_h and theta_d by one factor, at constant phi_d.
     ///
-    /// wi.z = R cos(theta_d + delta) and wo.z = R cos(theta_d - delta) with
-    /// R e^(i delta) = cos theta_h + i sin theta_h cos phi_d. Where even theta_d = 0 lies beyond, theta_h is
-    /// cut to the limit, to which the path tends.
+    /// With c = cos phi_d, 2 wi.z = (1 + c) cos(theta_h + theta_d) + (1 - c) cos(theta_h - theta_d), and wo.z the
+    /// same with -c: both rise as the angles shrink, so that the edge is met once, at an angle that does not vanish,
+    /// and depends continuously on the pair. The pair itself where it lies within.
     pub(crate) fn edge(&self, at: HalfDiff) -> HalfDiff {
-        let (sin_h, cos_h) = at.theta_h.sin_cos();
-        let tilt = sin_h * at.phi_d.cos();
-        let (length, delta) = (cos_h.hypot(tilt), tilt.atan2(cos_h));
-        let reach = |limit: f64| (limit.cos() / length).min(1.0).acos();
-        let theta_d = (reach(self.theta_i[1]) - delta)
-            .min(reach(self.theta_o[1]) + delta)
-            .clamp(0.0, at.theta_d);
-        let theta_h = at.theta_h.min(self.theta_i[1].min(self.theta_o[1]));
+        let (sum, difference) = (at.theta_h + at.theta_d, at.theta_h - at.theta_d);
+        let c = at.phi_d.cos();
+        let least = [self.theta_i[1].cos(), self.theta_o[1].cos()];
+        // how far above its limit the lower of the two directions is
+        let margin = |t: f64| {
+            let (a, b) = ((t * sum).cos(), (t * difference).cos());
+            let (common, part) = (0.5 * (a + b), 0.5 * c * (a - b));
+            (common + part - least[0]).min(common - part - least[1])
+        };
+        let mut bracket = [(0.0, margin(0.0)), (1.0, margin(1.0))];
+        if bracket[1].1 >= 0.0 {
+            return at;
+        }
+        let t = root(&mut bracket, margin);
         HalfDiff {
-            theta_h,
-            theta_d,
+            theta_h: t * at.theta_h,
+            theta_d: t * at.theta_d,
             phi_d: at.phi_d,
         }
     }
+}
+
+/// Where the falling `f` crosses 0 between the two ends (x, f(x)): regula falsi by the Illinois rule, which halves the
+/// weight of an end that stays.
+fn root([low, high]: &mut [(f64, f64); 2], f: impl Fn(f64) -> f64) -> f64 {
+    const STEPS: u32 = 60;
+    for _ in 0..STEPS {
+        if high.0 - low.0 < 1e-14 || low.1 <= 0.0 {
+            break;
+        }
+        let x = (low.0 + (high.0 - low.0) * low.1 / (low.1 - high.1)).clamp(low.0, high.0);
+        let y = f(x);
+        if y.abs() < 1e-14 {
+            return x;
+        }
+        if y > 0.0 {
+            *low = (x, y);
+            high.1 *= 0.5;
+        } else {
+            *high = (x, y);
+            low.1 *= 0.5;
+        }
+    }
+    low.0
 }

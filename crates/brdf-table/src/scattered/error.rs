@@ -43,6 +43,17 @@ pub enum CloudError {
         /// Rows in the system.
         rows: usize,
     },
+    /// More rows than one dense system may have.
+    #[error(
+        "expected at most {limit} rows for one surface through all of them, found {found}; \
+         the layered modes (nearest, linear, squared-lambda) and kd-nearest have no such limit"
+    )]
+    TooManyRows {
+        /// Rows given, after folding.
+        found: usize,
+        /// Rows allowed.
+        limit: usize,
+    },
     /// A conversion matrix without one row a native channel.
     #[error("expected one matrix row a channel, {expected}, found {found}")]
     Matrix {

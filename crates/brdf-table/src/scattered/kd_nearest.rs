@@ -3,6 +3,7 @@
 use crate::scattered::cloud::{Geometry, SampleCloud};
 use crate::scattered::domain::{Domain, Place};
 use crate::scattered::error::CloudError;
+use crate::scattered::policy::NegativePolicy;
 use brdf::{Measured, Status, Symmetry};
 use glam::DVec3;
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
@@ -14,6 +15,7 @@ pub struct KdNearest {
     cloud: SampleCloud,
     domain: Domain,
     tree: ImmutableKdTree<f64, 5>,
+    negatives: NegativePolicy,
 }
 
 impl KdNearest {
@@ -29,7 +31,14 @@ impl KdNearest {
             cloud: cloud.clone(),
             domain: Domain::new(cloud),
             tree,
+            negatives: NegativePolicy::Keep,
         })
+    }
+
+    /// The same with negative values treated as `negatives` says; they are kept unless told.
+    #[must_use]
+    pub fn with_negatives(self, negatives: NegativePolicy) -> Self {
+        Self { negatives, ..self }
     }
 }
 
@@ -59,6 +68,7 @@ impl Measured for KdNearest {
             .execute();
         let row = (found.item as usize).min(self.cloud.len() - 1);
         out.copy_from_slice(self.cloud.values(row));
+        self.negatives.apply(out);
         if self.cloud.geometry()[row].is_same(at) {
             return Status::Measured;
         }

@@ -2,6 +2,7 @@
 
 use crate::scattered::cloud::{Geometry, SAME_ANGLE, SampleCloud};
 use crate::scattered::log_ratio::{LogRatio, decode};
+use crate::scattered::policy::NegativePolicy;
 use brdf::{Measured, Status, Symmetry};
 use glam::DVec3;
 use spectrum::Basis;
@@ -28,6 +29,7 @@ pub enum LayerMode {
 pub struct LayeredTable {
     cloud: SampleCloud,
     mode: LayerMode,
+    negatives: NegativePolicy,
     /// Row-major (ln size, ratios), only for [`LayerMode::LogLinear`].
     coded: Vec<f64>,
     /// Incidences, ascending, with the rings below each.
@@ -67,10 +69,17 @@ impl LayeredTable {
         Self {
             cloud: cloud.clone(),
             mode,
+            negatives: NegativePolicy::Keep,
             coded,
             incidences,
             rings,
         }
+    }
+
+    /// The same with negative values treated as `negatives` says; they are kept unless told.
+    #[must_use]
+    pub fn with_negatives(self, negatives: NegativePolicy) -> Self {
+        Self { negatives, ..self }
     }
 
     /// The rows.
@@ -182,6 +191,7 @@ impl Measured for LayeredTable {
         if self.mode == LayerMode::LogLinear {
             decode(log_size, out);
         }
+        self.negatives.apply(out);
         status
     }
 

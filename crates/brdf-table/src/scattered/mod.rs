@@ -21,6 +21,7 @@ mod policy;
 mod polyharmonic;
 mod reciprocity;
 mod resample;
+mod rise;
 mod thin_plate;
 pub mod validation;
 

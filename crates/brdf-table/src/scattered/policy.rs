@@ -10,11 +10,23 @@ pub enum NegativePolicy {
     Clamp,
 }
 
+impl NegativePolicy {
+    /// Applies the choice to an answer.
+    #[inline]
+    pub(crate) fn apply(self, values: &mut [f64]) {
+        if self == Self::Clamp {
+            values.iter_mut().for_each(|v| *v = v.max(0.0));
+        }
+    }
+}
+
 /// What lies beyond the most grazing directions measured (for Cornell, 80 degrees).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum BeyondPolicy {
-    /// Continue log f along theta_d at constant theta_h and phi_d with the slope found at the edge, no steeper than
-    /// Fresnel reflection after [Schlick1994] allows and never falling.
+    /// The surface at the edge, reached by shrinking theta_h and theta_d by one factor at constant phi_d, times the
+    /// rise of Fresnel reflection after [Schlick1994] from there. How strong the rise is, a smooth function of
+    /// theta_h, is fitted to the measured rise toward the edge: never falling, no steeper than F0 = 0.04 allows,
+    /// and without rise where the rows do not show one. Continuous everywhere.
     #[default]
     Schlick,
     /// The nearest row: the policy of the thesis.

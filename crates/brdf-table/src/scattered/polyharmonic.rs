@@ -12,7 +12,7 @@ use crate::scattered::factor::{Cholesky, Householder};
 const CHUNK: usize = 64;
 
 /// |x|^2.25 from |x|^2, by square roots alone so that it compiles to vector code.
-#[inline]
+#[inline(always)]
 fn kernel(r2: f64) -> f64 {
     r2 * r2.sqrt().sqrt().sqrt()
 }
@@ -106,6 +106,9 @@ impl Polyharmonic {
     }
 
     /// The first channel at `x` into `first`, as many of the others as fit into `rest`.
+    ///
+    /// Compiled for each width of vector registers, of which the machine's widest is taken; no operation is fused or
+    /// reordered, so that all give the same bits.
     pub(crate) fn eval(&self, x: Point, first: &mut f64, rest: &mut [f64]) {
         let d: Point = std::array::from_fn(|a| x[a] - self.centre[a]);
         let linear = |l: &[f64; 4]| l[0] + l[1] * d[0] + l[2] * d[1] + l[3] * d[2];
@@ -113,25 +116,12 @@ impl Polyharmonic {
         for (o, l) in rest.iter_mut().zip(self.linear.iter().skip(1)) {
             *o = linear(l);
         }
-        let mut kernels = [0.0; CHUNK];
-        for (points, weights) in self
-            .points
-            .iter()
-            .zip(self.weights.chunks_exact(self.channels))
-        {
-            for (k, kernel_k) in kernels.iter_mut().enumerate() {
-                let (dx, dy, dz) = (
-                    x[0] - points[0][k],
-                    x[1] - points[1][k],
-                    x[2] - points[2][k],
-                );
-                *kernel_k = kernel(dx * dx + dy * dy + dz * dz);
-            }
-            *first += dot_chunk(&kernels, &weights[0]);
-            for (o, w) in rest.iter_mut().zip(&weights[1..]) {
-                *o += dot_chunk(&kernels, w);
-            }
-        }
+        pulp::Arch::new().dispatch(KernelSum {
+            surface: self,
+            x,
+            first,
+            rest,
+        });
     }
 
     /// The same surface in other channels: `map` has, for each new channel, what each old one adds to it.
@@ -155,6 +145,44 @@ impl Polyharmonic {
     }
 }
 
+/// Adds sum_k w_k |x - x_k|^2.25 of every channel.
+struct KernelSum<'a> {
+    surface: &'a Polyharmonic,
+    x: Point,
+    first: &'a mut f64,
+    rest: &'a mut [f64],
+}
+
+impl pulp::WithSimd for KernelSum<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        let Self {
+            surface,
+            x,
+            first,
+            rest,
+        } = self;
+        let weights = surface.weights.chunks_exact(surface.channels);
+        let mut kernels = [0.0; CHUNK];
+        for (points, weights) in surface.points.iter().zip(weights) {
+            for (k, kernel_k) in kernels.iter_mut().enumerate() {
+                let (dx, dy, dz) = (
+                    x[0] - points[0][k],
+                    x[1] - points[1][k],
+                    x[2] - points[2][k],
+                );
+                *kernel_k = kernel(dx * dx + dy * dy + dz * dz);
+            }
+            *first += dot_chunk(&kernels, &weights[0]);
+            for (o, w) in rest.iter_mut().zip(&weights[1..]) {
+                *o += dot_chunk(&kernels, w);
+            }
+        }
+    }
+}
+
 /// sum_j row_j of_j.
 fn combine<const N: usize>(row: &[f64], of: &[[f64; N]]) -> [f64; N] {
     let mut sum = [0.0; N];
@@ -165,7 +193,7 @@ fn combine<const N: usize>(row: &[f64], of: &[[f64; N]]) -> [f64; N] {
 }
 
 /// Eight partial sums, because one would forbid vector code.
-#[inline]
+#[inline(always)]
 fn dot_chunk(a: &[f64; CHUNK], b: &[f64; CHUNK]) -> f64 {
     let mut sums = [0.0; 8];
     for (a, b) in a.as_chunks::<8>().0.iter().zip(b.as_chunks::<8>().0) {

@@ -6,8 +6,9 @@ use crate::scattered::domain::{Domain, Place};
 use crate::scattered::error::CloudError;
 use crate::scattered::log_ratio::{LogRatio, decode};
 use crate::scattered::outliers::dead_rows;
-use crate::scattered::policy::{BeyondPolicy, DeadRows, GapPolicy, NegativePolicy, Policies};
+use crate::scattered::policy::{BeyondPolicy, DeadRows, GapPolicy, Policies};
 use crate::scattered::polyharmonic::Polyharmonic;
+use crate::scattered::rise::Rise;
 use brdf::{HalfDiff, Measured, Status, Symmetry};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -27,6 +28,7 @@ pub struct ThinPlate {
     policies: Policies,
     /// Rows answered at their own angles only.
     isolated: Vec<usize>,
+    rise: Rise,
     /// How much of the rise beyond the edge is taken, [0, 1].
     growth: f64,
     /// Largest directional albedo found beyond the edge.
@@ -54,16 +56,14 @@ pub struct FillReport {
     pub albedo_beyond: f64,
 }
 
-/// Reflectance at normal incidence below which no coating lies: bounds the rise toward grazing.
-const LEAST_F0: f64 = 0.04;
-/// Over how far back from the edge its slope is measured, radians: about one ring.
-const SLOPE_STEP: f64 = 0.1;
+/// Most rows of one surface: its two dense matrices then take 288 MB each.
+const MOST_ROWS: usize = 6000;
 
 impl ThinPlate {
     /// Through all rows, with the default policies.
     ///
     /// # Errors
-    /// If rows almost coincide.
+    /// As [`Self::with_policies`].
     pub fn new(cloud: &SampleCloud) -> Result<Self, CloudError> {
         Self::with_policies(cloud, Policies::default())
     }
@@ -71,8 +71,15 @@ impl ThinPlate {
     /// Through all rows but dead ones.
     ///
     /// # Errors
-    /// If rows almost coincide.
+    /// If rows almost coincide, or there are more than 6000 after folding: the cost grows with their cube and the
+    /// memory with their square.
     pub fn with_policies(cloud: &SampleCloud, policies: Policies) -> Result<Self, CloudError> {
+        if cloud.len() > MOST_ROWS {
+            return Err(CloudError::TooManyRows {
+                found: cloud.len(),
+                limit: MOST_ROWS,
+            });
+        }
         let code = LogRatio::new(cloud);
         let points: Vec<Point> = cloud.geometry().iter().map(|&g| chart::of_row(g)).collect();
         let dead = match policies.dead {
@@ -84,10 +91,17 @@ impl ThinPlate {
         let mut values = Vec::new();
         live().for_each(|r| code.encode(cloud.values(r), &mut values));
         let surface = Polyharmonic::fit(&nodes, &values, cloud.basis().len() + 1)?;
+        let domain = Domain::new(cloud);
+        let rise = Rise::fit(&domain, |at| {
+            let mut log_size = 0.0;
+            surface.eval(chart_of(at), &mut log_size, &mut []);
+            log_size
+        });
         let mut out = Self {
             cloud: cloud.clone(),
             surface,
-            domain: Domain::new(cloud),
+            domain,
+            rise,
             policies,
             isolated: (0..points.len()).filter(|&r| dead[r]).collect(),
             points: nodes,
@@ -171,33 +185,14 @@ impl ThinPlate {
         }
     }
 
-    /// f at the edge, times the rise from there: with q = (1 - cos theta_d)^5, Schlick's F is
-    /// F0 + (1 - F0) q, so that F / F_edge = 1 + k (q - q_edge) and k = (slope of ln f) / (slope of q),
-    /// which F0 >= [`LEAST_F0`] bounds.
+    /// f at the edge, times the rise from there.
     fn beyond(&self, at: HalfDiff, out: &mut [f64]) {
         let edge = self.domain.edge(at);
-        let inner = HalfDiff {
-            theta_d: (edge.theta_d - SLOPE_STEP).max(0.0),
-            ..edge
-        };
-        let of = |angles: HalfDiff| {
-            let (wi, wo) = angles.directions();
-            chart::point(Geometry::new(wi, wo), angles)
-        };
-        let (mut log_edge, mut log_inner) = (0.0, 0.0);
-        self.surface.eval(of(edge), &mut log_edge, out);
-        self.surface.eval(of(inner), &mut log_inner, &mut []);
-        let q = |theta_d: f64| (1.0 - theta_d.cos()).powi(5);
-        let (q_edge, rise) = (q(edge.theta_d), q(edge.theta_d) - q(inner.theta_d));
-        let most = 1.0 / (LEAST_F0 / (1.0 - LEAST_F0) + q_edge);
-        let slope = if rise > 0.0 {
-            (log_edge - log_inner) / rise
-        } else {
-            0.0
-        };
-        let k = self.growth * slope.clamp(0.0, most);
-        let factor = 1.0 + k * (q(at.theta_d) - q_edge).max(0.0);
-        decode(log_edge + factor.ln(), out);
+        let mut log_size = 0.0;
+        self.surface.eval(chart_of(edge), &mut log_size, out);
+        let (from, to) = (edge.theta_d, at.theta_d);
+        let factor = self.rise.factor(at.theta_h, from, to, self.growth);
+        decode(log_size + factor.ln(), out);
     }
 
     /// Lowers the growth until no direction beyond the edge reflects more than it receives.
@@ -267,6 +262,12 @@ impl ThinPlate {
     }
 }
 
+/// The chart's point of half and difference angles.
+fn chart_of(angles: HalfDiff) -> Point {
+    let (wi, wo) = angles.directions();
+    chart::point(Geometry::new(wi, wo), angles)
+}
+
 impl Measured for ThinPlate {
     fn basis(&self) -> &Basis {
         self.cloud.basis()
@@ -286,9 +287,7 @@ impl Measured for ThinPlate {
             }
             None => self.answer(geometry, HalfDiff::new(wi, wo), out),
         };
-        if self.policies.negative == NegativePolicy::Clamp {
-            out.iter_mut().for_each(|v| *v = v.max(0.0));
-        }
+        self.policies.negative.apply(out);
         status
     }
 
