@@ -45,7 +45,7 @@ impl Spot {
 #[inline(always)]
 fn split(u: f32, n: usize) -> (usize, f32) {
     // `max` before `min`: NaN becomes 0
-    let position = u.max(0.0).min(1.0) * (n - 1) as f32;
+    let position = u.clamp(0.0, 1.0) * (n - 1) as f32;
     let whole = (position as u32 as usize).min(n - 2);
     (whole, position - whole as f32)
 }
@@ -211,5 +211,5 @@ fn invert_linear(mass: f32, a: f32, b: f32) -> f32 {
     let root = (a * a + 2.0 * (b - a) * mass).max(0.0).sqrt();
     let sum = a + root;
     let t = 2.0 * mass / if sum > 0.0 { sum } else { 1.0 };
-    t.max(0.0).min(1.0)
+    t.clamp(0.0, 1.0)
 }
