@@ -37,6 +37,9 @@ pub(crate) enum Verb {
 }
 
 /// Render a scene to EXR and PNG, with its own error estimate.
+///
+/// Ctrl-C finishes the tiles at hand and writes what there is (exit code 0, `interrupted` in JSON); a second one ends the
+/// program at once (130).
 #[derive(Debug, Default, Args)]
 #[command(after_help = "Examples:
   gonio render                                              the embedded default: two materials measured on the fly

@@ -77,11 +77,12 @@ impl Frame {
             }
             Radius::Log { decades } => {
                 let top = self.max.log10();
-                let mut rings = vec![(self.max, short(self.max))];
-                // a ring closer to the rim than its label is wide would be unreadable
-                let mut exponent = (top - 0.06 * decades).floor();
-                while exponent > top - decades {
-                    rings.push((10_f64.powf(exponent), format!("1e{exponent}")));
+                let mut rings = Vec::new();
+                let mut exponent = (top + 1e-9).floor();
+                // a ring closer to the centre than its label is wide would be unreadable
+                while exponent > top - 0.95 * decades {
+                    let value = 10_f64.powf(exponent);
+                    rings.push((value, short(value)));
                     exponent -= (decades / 6.0).ceil();
                 }
                 rings
@@ -232,7 +233,7 @@ fn draw_incident<B: DrawingBackend>(
     if (deg / 15.0 - (deg / 15.0).round()).abs() < 1e-6 {
         return Ok(());
     }
-    let label = format!("{}", (deg * 10.0).round() / 10.0);
+    let label = format!("{}\u{b0}", (deg * 10.0).round() / 10.0);
     let place = frame.at(theta, 1.0 + 16.0 * F / frame.rim);
     area.draw(&Text::new(
         label,

@@ -43,14 +43,7 @@ fn polar(materials: &[Named], args: &Plot) -> PolarPlot {
     let mut incident = Vec::new();
     for (k, theta_deg) in args.theta_i.iter().enumerate() {
         let theta = theta_deg.to_radians();
-        incident.push((
-            -theta,
-            if args.theta_i.len() == 1 {
-                [0, 0, 0]
-            } else {
-                plot::palette(k)
-            },
-        ));
+        incident.push((-theta, [0, 0, 0]));
         for (n, (name, material)) in materials.iter().enumerate() {
             let several = args.theta_i.len() > 1;
             let mut lobes = if materials.len() > 1 {
@@ -70,10 +63,15 @@ fn polar(materials: &[Named], args: &Plot) -> PolarPlot {
         }
     }
     let names: Vec<&str> = materials.iter().map(|m| m.0.as_str()).collect();
+    let of = if materials.len() > 1 {
+        " (luminance)"
+    } else {
+        ""
+    };
     let angles: Vec<String> = args.theta_i.iter().map(f64::to_string).collect();
     PolarPlot {
         title: format!(
-            "{}, light at {} degrees",
+            "{}{of}, light at {} degrees",
             names.join(", "),
             angles.join(", ")
         ),

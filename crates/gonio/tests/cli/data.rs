@@ -64,7 +64,10 @@ fn every_genuine_file_is_plotted() {
 
 /// Sums of the channels over all pixels but those of a background of exactly 1.
 fn sums(picture: &Picture) -> [f64; 3] {
-    let covered = picture.pixels.iter().filter(|p| p.iter().any(|v| v.to_bits() != 1_f32.to_bits()));
+    let covered = picture
+        .pixels
+        .iter()
+        .filter(|p| p.iter().any(|v| v.to_bits() != 1_f32.to_bits()));
     let mut sum = [0.0; 3];
     for pixel in covered {
         (0..3).for_each(|c| sum[c] += f64::from(pixel[c]));
