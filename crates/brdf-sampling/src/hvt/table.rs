@@ -32,7 +32,7 @@ pub(crate) struct Place {
 }
 
 /// A blended row of nodes; entries beyond the row are 0.
-type Row = [f32; MAX_B];
+type Row<const B: usize> = [f32; B];
 
 impl Table {
     /// Rounds node values to bytes and restores the mass of every slice.
@@ -126,14 +126,25 @@ impl Table {
     /// lobe).
     #[inline]
     pub(crate) fn invert(&self, p: Place, u: f32, v: f32) -> (f32, f32) {
+        // loops of fixed length are worth a copy of the code for the usual rows
+        if self.shape.n_b <= MAX_B / 2 {
+            self.invert_within::<{ MAX_B / 2 }>(p, u, v)
+        } else {
+            self.invert_within::<MAX_B>(p, u, v)
+        }
+    }
+
+    /// [`Self::invert`] for rows of at most `B` nodes.
+    #[inline]
+    fn invert_within<const B: usize>(&self, p: Place, u: f32, v: f32) -> (f32, f32) {
         let (i, fraction) = self.row_of(p, u);
-        let (low, high) = (self.row(p, i), self.row(p, i + 1));
+        let (low, high) = (self.row::<B>(p, i), self.row::<B>(p, i + 1));
         let nb = self.shape.n_b;
         // the trapezoid rule: half weights at both ends
-        let mass = |r: &Row| eighths(r) - 0.5 * (r[0] + r[nb - 1]);
+        let mass = |r: &Row<B>| eighths(r) - 0.5 * (r[0] + r[nb - 1]);
         let x = linear(mass(&low), mass(&high), fraction);
-        let mut row = [0.0; MAX_B];
-        for j in 0..MAX_B {
+        let mut row = [0.0; B];
+        for j in 0..B {
             row[j] = low[j] + x * (high[j] - low[j]);
         }
         let (j, y) = column(&row, nb - 1, v);
@@ -167,11 +178,11 @@ impl Table {
     }
 
     #[inline]
-    fn row(&self, p: Place, i: usize) -> Row {
+    fn row<const B: usize>(&self, p: Place, i: usize) -> Row<B> {
         let (nb, n) = (self.shape.n_b, self.shape.slice());
         let low = &self.nodes[p.k * n + i * nb..][..nb];
         let high = &self.nodes[(p.k + 1) * n + i * nb..][..nb];
-        let mut row = [0.0; MAX_B];
+        let mut row = [0.0; B];
         for (r, (a, b)) in row.iter_mut().zip(low.iter().zip(high)) {
             *r = p.factor[0] * decode(*a) + p.factor[1] * decode(*b);
         }
@@ -197,7 +208,7 @@ pub(crate) fn linear(r0: f32, r1: f32, y: f32) -> f32 {
 
 /// The sum of a row, by eight independent sums.
 #[inline]
-fn eighths(row: &Row) -> f32 {
+fn eighths<const B: usize>(row: &Row<B>) -> f32 {
     let mut sums = [0.0; 8];
     for eight in row.chunks_exact(8) {
         for k in 0..8 {
@@ -213,9 +224,9 @@ const BLOCK: usize = 4;
 /// The interval, of the first `cells`, in which the trapezoid sums of `row` reach the fraction `v`, and the place
 /// in it. Searched by blocks, then in the block; nothing branches on the outcome.
 #[inline]
-fn column(row: &Row, cells: usize, v: f32) -> (usize, f32) {
-    let mut mass = [0.0; MAX_B];
-    for j in 0..MAX_B - 1 {
+fn column<const B: usize>(row: &Row<B>, cells: usize, v: f32) -> (usize, f32) {
+    let mut mass = [0.0; B];
+    for j in 0..B - 1 {
         let inside = if j < cells { 0.5 } else { 0.0 };
         mass[j] = inside * (row[j] + row[j + 1]);
     }

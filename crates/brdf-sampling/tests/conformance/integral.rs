@@ -54,7 +54,7 @@ fn tolerance(name: &str) -> f64 {
         Some("Uniform" | "Cosine") => 1e-4,
         // its kinks, on a quadrature that does not know their scale
         Some("Hvt") => 3e-4,
-        _ => 3e-3,
+        _ => 1e-2,
     }
 }
 
