@@ -10,7 +10,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 ///
 /// The variable is u = sqrt(theta_h / (pi/2)), in which the cells of a table are equally wide, and
 /// dwi = 4 (wo.h) dwh. `n` of twice the theta_h cells resolves every table; the error of a smooth f is O(1/n^2).
-/// Interpolants of scattered rows are smooth and cost microseconds a look-up: `n` = 48 suffices for them
+/// Interpolants of scattered rows are smooth and cost microseconds a look-up: `n` = 48 is meant for them
 /// (docs/interpolation.md).
 ///
 /// Rings of theta_h are shared among threads and added in order: the result has the same bits on any number of them.
