@@ -33,7 +33,7 @@ pub(crate) struct Spot {
 }
 
 impl Spot {
-    /// Where `u` lies among `nx` x `ny` nodes, at least two each way; NaN is taken as 0.
+    /// Where `u` lies among `nx` x `ny` nodes, at least two each way; NaN lies in the first cell.
     #[inline(always)]
     pub(crate) fn new(u: [f32; 2], nx: usize, ny: usize) -> Self {
         let (col, x) = split(u[0], nx);
@@ -44,8 +44,7 @@ impl Spot {
 
 #[inline(always)]
 fn split(u: f32, n: usize) -> (usize, f32) {
-    // `max` before `min`: NaN becomes 0
-    let position = u.max(0.0).min(1.0) * (n - 1) as f32;
+    let position = u.clamp(0.0, 1.0) * (n - 1) as f32;
     let whole = (position as u32 as usize).min(n - 2);
     (whole, position - whole as f32)
 }
@@ -211,5 +210,5 @@ fn invert_linear(mass: f32, a: f32, b: f32) -> f32 {
     let root = (a * a + 2.0 * (b - a) * mass).max(0.0).sqrt();
     let sum = a + root;
     let t = 2.0 * mass / if sum > 0.0 { sum } else { 1.0 };
-    t.max(0.0).min(1.0)
+    t.clamp(0.0, 1.0)
 }

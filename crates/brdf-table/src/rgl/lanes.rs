@@ -234,7 +234,7 @@ impl RglLanes {
             let inv = 1.0 / (pair[1] - pair[0]).max(f32::MIN_POSITIVE);
             for k in 0..LANES {
                 let here = (i == 0) | (theta[k] >= pair[0]);
-                let t = ((theta[k] - pair[0]) * inv).max(0.0).min(1.0);
+                let t = ((theta[k] - pair[0]) * inv).clamp(0.0, 1.0);
                 v.lower[k] = if here { i as u32 } else { v.lower[k] };
                 v.t[k] = if here { t } else { v.t[k] };
             }
