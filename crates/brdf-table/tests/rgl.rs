@@ -7,6 +7,7 @@ use brdf_formats::RglFile;
 use brdf_table::{RglN, RglTable};
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -242,10 +243,10 @@ fn packets_agree_with_the_scalar_form() {
                 let (theta, phi) = if k == 0 {
                     (0.0, 0.0)
                 } else {
-                    (1.5 * a.x, 6.28 * a.y)
+                    (1.5 * a.x, TAU * a.y)
                 };
                 wo.set(k, direction(theta, phi).as_vec3());
-                wi.set(k, direction(1.5 * b.x, 6.28 * b.y).as_vec3());
+                wi.set(k, direction(1.5 * b.x, TAU * b.y).as_vec3());
                 let [x, y] = rng.uniform2().to_array();
                 (u[0][k], u[1][k]) = (x as f32, y as f32);
             }

@@ -11,8 +11,9 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use glam::{DAffine3, DVec2, DVec3, Vec3};
 use spectrum::Samples;
 use std::f32::consts::PI;
+use std::num::NonZeroUsize;
 use std::time::Duration;
-use tracer::{Camera, Description, Film, Mesh, Object, Scene, Settings, Shape, render};
+use tracer::{Camera, Description, Film, Mesh, Object, Scene, Settings, Shape, Strategy, render};
 
 /// albedo / pi.
 struct Lambert(f32);
@@ -218,5 +219,43 @@ fn scenes(c: &mut Criterion) {
     run(c, "benchmark_mesh", &benchmark(Shape::Mesh(bumpy()), up));
 }
 
-criterion_group!(benches, scenes);
+/// Nearest hits alone, by the timer of that stage, one thread: seen from outside, all rays from one point, and in a
+/// closed mesh that scatters evenly, four of five rays without any order.
+fn rays(c: &mut Criterion) {
+    let mut group = c.benchmark_group("tracer/closest_65k_triangles");
+    group
+        .sample_size(10)
+        .measurement_time(Duration::from_secs(4));
+    let outside = DVec3::new(0.0, 0.5, 2.6);
+    for (name, eye, max_depth) in [("primary", outside, 0), ("incoherent", DVec3::ZERO, 4)] {
+        let scene = Scene::new(Description {
+            camera: Camera {
+                eye,
+                target: DVec3::new(0.0, 0.0, -0.1),
+                up: DVec3::Y,
+                vertical_fov_deg: 45.0,
+            },
+            materials: vec![grey(0.9)],
+            objects: vec![Object::new(Shape::Mesh(bumpy()), 0)],
+            lights: vec![],
+            environment: None,
+        })
+        .unwrap();
+        let settings = Settings {
+            spp: 4,
+            max_depth,
+            strategy: Strategy::BsdfOnly,
+            threads: Some(NonZeroUsize::MIN),
+            ..Settings::default()
+        };
+        let trace = || render(&scene, &settings, &mut Film::new(320, 240, 4), &()).unwrap();
+        group.throughput(Throughput::Elements(trace().closest_rays));
+        group.bench_function(name, |b| {
+            b.iter_custom(|n| (0..n).map(|_| trace().stages.closest).sum());
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, rays, scenes);
 criterion_main!(benches);

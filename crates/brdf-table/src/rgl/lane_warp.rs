@@ -33,7 +33,7 @@ pub(crate) struct Spot {
 }
 
 impl Spot {
-    /// Where `u` lies among `nx` x `ny` nodes, at least two each way; NaN is taken as 0.
+    /// Where `u` lies among `nx` x `ny` nodes, at least two each way; NaN lies in the first cell.
     #[inline(always)]
     pub(crate) fn new(u: [f32; 2], nx: usize, ny: usize) -> Self {
         let (col, x) = split(u[0], nx);
@@ -44,7 +44,6 @@ impl Spot {
 
 #[inline(always)]
 fn split(u: f32, n: usize) -> (usize, f32) {
-    // `max` before `min`: NaN becomes 0
     let position = u.clamp(0.0, 1.0) * (n - 1) as f32;
     let whole = (position as u32 as usize).min(n - 2);
     (whole, position - whole as f32)
