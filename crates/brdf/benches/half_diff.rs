@@ -1,7 +1,5 @@
 //! Half and difference angles, and a native spectrum projected to RGB.
 
-#![expect(missing_docs, reason = "criterion's macros make public items")]
-
 use brdf::{Brdf, HalfDiff, Measured, Projected, Status, Symmetry, direction};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use glam::DVec3;

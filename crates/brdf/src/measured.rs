@@ -114,6 +114,7 @@ mod tests {
     }
 
     #[test]
+    #[expect(clippy::float_cmp, reason = "sums of small whole numbers are exact")]
     fn projection_is_the_matrix_product_on_stack_and_heap() {
         for n in [3_u32, 80, 81, 200] {
             let matrix = (0..n).map(|k| [1.0, f64::from(k % 2)]).collect();

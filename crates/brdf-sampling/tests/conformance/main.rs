@@ -8,6 +8,7 @@ mod furnace;
 mod integral;
 mod listed;
 mod quadrature;
+mod rendering;
 mod samplers;
 mod table_kinds;
 mod targets;

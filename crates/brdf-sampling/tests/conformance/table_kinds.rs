@@ -89,7 +89,7 @@ pub(crate) const TABLES: &[TableKind] = &[
         let resampled = resample(&plate, &Domain::new(&cloud), DIMS);
         linear(resampled.table)
     }),
-    kind("RglTable", f64::INFINITY, false, rgl),
+    kind("RglTable", f64::INFINITY, false, || Made::Rgl(rgl_table())),
 ];
 
 impl TableKind {
@@ -154,13 +154,17 @@ fn merl(interpolation: Interpolation) -> Made {
 
 /// A grid of the given azimuth domain.
 fn grid(phi: PhiDomain, interpolation: Interpolation) -> Made {
+    gridded(gloss_grid(phi), interpolation)
+}
+
+/// The model on a grid.
+pub(crate) fn gloss_grid(phi: PhiDomain) -> HalfDiffTable {
     let model = model();
     let basis = Basis::Rgb(RgbSpace::srgb());
-    let table = HalfDiffTable::from_fn(DIMS, phi, basis, |wi, wo, out| {
+    HalfDiffTable::from_fn(DIMS, phi, basis, |wi, wo, out| {
         out.copy_from_slice(&model.eval(wi, wo));
         Status::Measured
-    });
-    gridded(table, interpolation)
+    })
 }
 
 /// Through the rows of a Cornell file.
@@ -181,7 +185,7 @@ const INCIDENCES: usize = 4;
 
 /// An RGL file in memory: visible normals and luminance that depend on incidence and are not symmetric, so that
 /// a slip in either warp shows.
-fn rgl() -> Made {
+pub(crate) fn rgl_table() -> Arc<RglTable> {
     let at = |k: usize| k as f64 / (SIDE - 1) as f64;
     let warp = |f: &dyn Fn(f64, f64, f64) -> f64| -> Vec<f32> {
         let nodes = (0..INCIDENCES * SIDE * SIDE).map(|n| {
@@ -223,7 +227,7 @@ fn rgl() -> Made {
         },
     ]);
     let file = RglFile::from_bytes(bytes).unwrap();
-    Made::Rgl(Arc::new(RglTable::new(&file).unwrap()))
+    Arc::new(RglTable::new(&file).unwrap())
 }
 
 /// A field of a tensor file.
