@@ -9,8 +9,10 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Steps of an in-plane lobe from -90 to 90 degrees: a quarter degree.
 const LOBE_STEPS: i32 = 720;
-/// Rings of the albedo quadrature: two a theta_h cell of a MERL table.
-const ALBEDO_RINGS: usize = 180;
+/// Rings of the albedo quadrature for grids: two a theta_h cell of a MERL table.
+const GRID_RINGS: usize = 180;
+/// Rings for scattered rows, whose smooth surface is slow to evaluate and has no features narrower than their own rings.
+const ROW_RINGS: usize = 64;
 /// Most bands of a spectrum that are drawn.
 const BANDS: usize = 5;
 
@@ -157,12 +159,11 @@ pub(crate) fn luminance_albedo(material: &dyn Measured, label: &str, color: Colo
 }
 
 fn albedo_rows(material: &dyn Measured) -> impl Iterator<Item = (f64, Vec<f64>)> + '_ {
-    (0..=88).step_by(2).map(f64::from).map(|deg| {
-        (
-            deg,
-            directional_albedo(material, deg.to_radians(), ALBEDO_RINGS),
-        )
-    })
+    // what is reciprocal by its layout is a grid
+    let grid = material.symmetry().reciprocal;
+    let rings = if grid { GRID_RINGS } else { ROW_RINGS };
+    let angles = (0..=88).step_by(2).map(f64::from);
+    angles.map(move |deg| (deg, directional_albedo(material, deg.to_radians(), rings)))
 }
 
 #[cfg(test)]

@@ -6,10 +6,11 @@ use crate::args::Info;
 use crate::load;
 use anyhow::Result;
 use brdf_formats::{File, MERL_SCALE};
-use scene_io::material::{Detail, LoadedMeasured};
+use scene_io::material::{Detail, Identity, identify};
 use serde::Serialize;
 use spectrum::Basis;
 use std::fmt::{self, Write};
+use std::path::Path;
 
 #[derive(Serialize)]
 struct Report {
@@ -35,22 +36,22 @@ struct Report {
 }
 
 pub(crate) fn run(context: &Context, args: &Info) -> Result<()> {
-    let loaded = load::measured(context, &args.file, None)?;
-    let report = describe(&loaded)?;
+    let path = context.places.data.find(&args.file, Path::new(""))?;
+    let report = describe(&identify(&path)?)?;
     context.report(&report, |out| print(&report, out))
 }
 
-fn describe(loaded: &LoadedMeasured) -> Result<Report> {
-    let basis = loaded.measured.basis();
+fn describe(file: &Identity) -> Result<Report> {
+    let basis = &file.basis;
     let space = match basis {
         Basis::Rgb(space) => Some(space.clone()),
         _ => None,
     };
-    let content = content(loaded)?;
+    let content = content(file)?;
     Ok(Report {
-        file: loaded.path.display().to_string(),
-        format: loaded.format.name,
-        title: loaded.format.title,
+        file: file.path.display().to_string(),
+        format: file.format.name,
+        title: file.format.title,
         dims: content.dims,
         channels: Channels::of(basis),
         primaries: space.as_ref().map(|s| s.primaries),
@@ -61,21 +62,26 @@ fn describe(loaded: &LoadedMeasured) -> Result<Report> {
             .unwrap_or_else(|| vec![load::brdf_scale(basis); basis.len()]),
         valid_fraction: content.valid_fraction,
         negatives: content.negatives,
-        bytes: loaded.bytes,
+        bytes: file.bytes,
         header: content.header,
-        reciprocal: loaded.measured.symmetry().reciprocal,
-        interpolations: interpolations(loaded),
-        docs: loaded.format.docs,
+        reciprocal: file.reciprocal,
+        interpolations: interpolations(file),
+        docs: file.format.docs,
     })
 }
 
 /// What `--interpolation` may say for such a file, the default first.
-fn interpolations(loaded: &LoadedMeasured) -> &'static [&'static str] {
-    match loaded.detail {
+fn interpolations(file: &Identity) -> &'static [&'static str] {
+    match file.detail {
         Detail::Grid { .. } => &["linear", "nearest"],
-        Detail::Scattered { .. } | Detail::Rows { .. } => {
-            &["thin-plate", "linear", "nearest", "squared-lambda"]
-        }
+        Detail::Scattered { .. } | Detail::Rows { .. } => &[
+            "thin-plate",
+            "linear",
+            "layered-log",
+            "squared-lambda",
+            "nearest",
+            "kd-nearest",
+        ],
         _ => &["linear"],
     }
 }
@@ -89,8 +95,8 @@ struct Content {
     header: Vec<(String, String)>,
 }
 
-fn content(loaded: &LoadedMeasured) -> Result<Content> {
-    if let Detail::Grid { dims, cells } = &loaded.detail {
+fn content(file: &Identity) -> Result<Content> {
+    if let Detail::Grid { dims, cells } = &file.detail {
         let negative = cells.all_negative + cells.partly_negative;
         return Ok(Content {
             dims: dims.to_vec(),
@@ -103,7 +109,7 @@ fn content(loaded: &LoadedMeasured) -> Result<Content> {
             )],
         });
     }
-    let bytes = scene_io::load::bytes(&loaded.path, scene_io::load::MAX_FILE_BYTES)?;
+    let bytes = scene_io::load::bytes(&file.path, scene_io::load::MAX_FILE_BYTES)?;
     let rows = |count: usize, width: usize, values: &mut dyn Iterator<Item = &[f64]>| {
         let mut negatives = vec![0; width];
         for row in values {
