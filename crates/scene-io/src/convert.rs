@@ -5,14 +5,15 @@ use crate::material::{
     Detail, LoadedMeasured, MaterialOptions, load_measured, measured_from_bytes,
 };
 use crate::{load, write};
-use brdf::{Brdf, Measured, Projected, Status};
+use brdf::{Measured, Projected, Status};
 use brdf_formats::{AstmFile, Channels, File, PbrtTextFile};
 use brdf_measure::{Instrument, measure_astm};
-use brdf_table::{HalfDiffTable, Interpolation, PhiDomain, mix};
+use brdf_table::{Gridded, HalfDiffTable, Interpolation, PhiDomain, mix};
 use sampling::{Rng, warp};
 use spectrum::{Basis, RgbSpace};
 use std::path::Path;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// What a conversion did.
 #[derive(Clone, Debug, Default)]
@@ -48,7 +49,10 @@ pub fn convert(
     }
     let mut lost = Vec::new();
     let bytes = match target {
-        "merl" => to_merl(&*linear_srgb_table(&loaded)?, &mut lost)?,
+        "merl" => {
+            let table = linear_srgb_table(&loaded, &mut lost)?;
+            to_merl(&table, &mut lost)?
+        }
         "astm" => to_astm(&loaded, &mut lost)?,
         _ => to_pbrt_text(&loaded, &mut lost)?,
     };
@@ -76,9 +80,10 @@ pub fn mix_files(
         )
         .in_file(output));
     }
-    let mut tables = Vec::new();
+    let (mut tables, mut lost) = (Vec::new(), Vec::new());
     for (path, weight) in parts {
-        tables.push((linear_srgb_table(&load_measured(path, options)?)?, *weight));
+        let table = linear_srgb_table(&load_measured(path, options)?, &mut lost)?;
+        tables.push((table, *weight));
     }
     if tables
         .iter()
@@ -91,11 +96,17 @@ pub fn mix_files(
     }
     let borrowed: Vec<(&HalfDiffTable, f64)> = tables.iter().map(|(t, w)| (&**t, *w)).collect();
     let mixed = mix(&borrowed).map_err(|e| Error::invalid(e.to_string()))?;
-    let mut lost = Vec::new();
-    write::bytes(output, &to_merl(&mixed, &mut lost)?)?;
+    let bytes = to_merl(&mixed, &mut lost)?;
+    let again = measured_from_bytes(&bytes, &MaterialOptions::default())?;
+    let mixed = Gridded {
+        table: Arc::new(mixed),
+        interpolation: Interpolation::Linear,
+    };
+    let round_trip_error = difference(&mixed, &*again.measured);
+    write::bytes(output, &bytes)?;
     Ok(Conversion {
         lost,
-        round_trip_error: 0.0,
+        round_trip_error,
     })
 }
 
@@ -126,12 +137,17 @@ pub fn output_format(output: &Path) -> Result<&'static str, Error> {
 /// The material on MERL's grid in linear sRGB: its own table if it is one, else sampled at the cells' centres.
 ///
 /// Materials that are not reciprocal need the full circle of `phi_d`: twice the cells.
-fn linear_srgb_table(loaded: &LoadedMeasured) -> Result<Arc<HalfDiffTable>, Error> {
+///
+/// Values that a policy filled are kept, and counted in `lost`: the format cannot tell them from measured ones.
+fn linear_srgb_table(
+    loaded: &LoadedMeasured,
+    lost: &mut Vec<String>,
+) -> Result<Arc<HalfDiffTable>, Error> {
     let srgb = Basis::Rgb(RgbSpace::srgb());
     if let Some(table) = loaded.table().filter(|t| *t.basis() == srgb) {
         return Ok(Arc::clone(table));
     }
-    let brdf = linear_srgb(loaded)?;
+    let matrix = loaded.measured.basis().to_linear_srgb();
     let rows = matches!(
         loaded.detail,
         Detail::Scattered { .. } | Detail::Rows { .. }
@@ -142,10 +158,23 @@ fn linear_srgb_table(loaded: &LoadedMeasured) -> Result<Arc<HalfDiffTable>, Erro
         false if rows => (MERL_DIMS, PhiDomain::Mirror),
         false => (FULL_CIRCLE, PhiDomain::Full),
     };
+    let filled = AtomicUsize::new(0);
     let table = HalfDiffTable::from_fn(dims, phi, srgb, |wi, wo, out| {
-        out.copy_from_slice(&brdf.eval(wi, wo));
+        let mut native = vec![0.0; matrix.len()];
+        if loaded.measured.eval_native(wi, wo, &mut native) == Status::Filled {
+            filled.fetch_add(1, Ordering::Relaxed);
+        }
+        for (value, row) in native.iter().zip(&matrix) {
+            (0..3).for_each(|c| out[c] += value * row[c]);
+        }
         Status::Interpolated
     });
+    let filled = filled.into_inner() * if phi == PhiDomain::Mirror { 2 } else { 1 };
+    if filled > 0 {
+        lost.push(format!(
+            "{filled} values lie where nothing was measured and were filled: the file cannot say which"
+        ));
+    }
     Ok(Arc::new(match phi {
         // the centres of its cells are centres of the half circle's: nothing is interpolated
         PhiDomain::Mirror => table.resample(FULL_CIRCLE, PhiDomain::Full, Interpolation::Nearest),
