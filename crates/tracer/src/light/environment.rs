@@ -69,7 +69,8 @@ impl<const N: usize> ImageLight<N> {
     fn pixel(&self, d: Vec3) -> usize {
         let d = self.to_local * d;
         let u = d.x.atan2(-d.z) / (2.0 * PI) + 0.5;
-        let v = d.y.clamp(-1.0, 1.0).acos() / PI;
+        // atan2 keeps its digits at the poles, where acos loses half of them
+        let v = d.x.hypot(d.z).atan2(d.y) / PI;
         let x = ((u * self.width as f32) as u32).min(self.width - 1);
         let y = ((v * self.height as f32) as u32).min(self.height - 1);
         (y * self.width + x) as usize
