@@ -85,7 +85,7 @@ impl<const N: usize> Brdf<N> for CookTorrance<N> {
         let groove = half.h.z / (half.len2 * wi.z.max(wo.z));
         let open = 0.25 / (wi.z * wo.z);
         let lobe = self.ndf(&half) * groove.min(open);
-        let f = self.fresnel.eval(half.cos_d());
+        let f = self.fresnel.eval_at(half.cos_d(), half.sin2_d());
         std::array::from_fn(|c| self.diffuse[c] * FRAC_1_PI + self.specular[c] * f[c] * lobe)
     }
 
