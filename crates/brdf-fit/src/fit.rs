@@ -201,7 +201,7 @@ fn starts(family: &dyn Family) -> Vec<Vec<f64>> {
 /// Error, parameters and intervals at the end of a fit.
 fn report(problem: &Problem<'_>, point: &Point, seconds: f64) -> Fit {
     let family = problem.family;
-    let normal = problem.normal(point);
+    let normal = problem.normal(point, true);
     let covariance = covariance(problem, point, &normal);
     let shape = problem.shape_at(&point.u);
     let deviation = |k: usize| covariance[(k, k)].sqrt();

@@ -31,7 +31,7 @@ pub(crate) fn descend(problem: &Problem<'_>, start: Point, limits: Limits) -> Po
         if bounds.is_empty() || point.cost <= 0.0 {
             break;
         }
-        let reduced = Reduced::new(&problem.normal(&point), &point, &bounds);
+        let reduced = Reduced::new(&problem.normal(&point, false), &point, &bounds);
         let Some((better, next)) = step(problem, &point, &reduced, damping) else {
             break;
         };

@@ -77,7 +77,7 @@ pub(crate) fn solve_on(
     set: &[usize],
 ) -> Option<DVector<f64>> {
     let d: Vec<f64> = set.iter().map(|&k| gram[(k, k)].sqrt()).collect();
-    if d.iter().any(|d| !(*d > 0.0)) {
+    if d.iter().any(|d| d.is_nan() || *d <= 0.0) {
         return None;
     }
     let a = DMatrix::from_fn(set.len(), set.len(), |i, j| {

@@ -29,6 +29,9 @@ pub(crate) struct Problem<'a> {
 /// The weights of every channel, channel by channel.
 pub(crate) type Weights = Vec<Vec<f64>>;
 
+/// Factors of the lobes and their derivatives by the weights.
+type Factors = (Vec<f64>, DMatrix<f64>);
+
 /// A shape with its best weights.
 #[derive(Clone, Debug)]
 pub(crate) struct Point {
@@ -44,15 +47,17 @@ pub(crate) struct Point {
 pub(crate) struct Normal {
     pub(crate) jtj: DMatrix<f64>,
     pub(crate) jtr: DVector<f64>,
+    /// Empty unless asked for.
     pub(crate) meat: DMatrix<f64>,
 }
 
 impl Normal {
-    fn zeros(n: usize) -> Self {
+    fn zeros(n: usize, with_meat: bool) -> Self {
+        let m = if with_meat { n } else { 0 };
         Self {
             jtj: DMatrix::zeros(n, n),
             jtr: DVector::zeros(n),
-            meat: DMatrix::zeros(n, n),
+            meat: DMatrix::zeros(m, m),
         }
     }
 
@@ -217,7 +222,7 @@ impl<'a> Problem<'a> {
     /// The linearised problem in the weights of every channel: residual r + r' (m(w) - m), m(w) by its Jacobian.
     fn grams(&self, table: &[Vec<f64>], weights: &Weights) -> Vec<Gram> {
         let (k, n) = (self.family.lobe_count(), self.family.weights().len());
-        let channels: Vec<(Vec<f64>, DMatrix<f64>)> = weights
+        let channels: Vec<Factors> = weights
             .iter()
             .map(|w| coefficients(self.family, w))
             .collect();
@@ -230,13 +235,7 @@ impl<'a> Problem<'a> {
                     let (r, slope) = self.metric.residual(y[c], m, ci);
                     let mut at_old = 0.0;
                     for j in 0..n {
-                        row[j] = slope
-                            * by_weight
-                                .column(j)
-                                .iter()
-                                .zip(lobes)
-                                .map(|(a, b)| a * b)
-                                .sum::<f64>();
+                        row[j] = slope * dot(by_weight.column(j).as_slice(), lobes);
                         at_old += row[j] * weights[c][j];
                     }
                     let target = at_old - r;
@@ -286,8 +285,9 @@ impl<'a> Problem<'a> {
         sums.iter().sum()
     }
 
-    /// Normal equations at a point; derivatives by shape are forward differences of the lobes.
-    pub(crate) fn normal(&self, point: &Point) -> Normal {
+    /// Normal equations at a point; derivatives by shape are forward differences of the lobes. The meat costs as much
+    /// again and is made only if asked for.
+    pub(crate) fn normal(&self, point: &Point, with_meat: bool) -> Normal {
         let p = self.family.shape().len();
         let steps = self.steps(&point.u);
         let base = self.family.lobes(&self.shape_at(&point.u));
@@ -298,7 +298,7 @@ impl<'a> Problem<'a> {
                 self.family.lobes(&self.shape_at(&u))
             })
             .collect();
-        let channels: Vec<(Vec<f64>, DMatrix<f64>)> = point
+        let channels: Vec<Factors> = point
             .weights
             .iter()
             .map(|w| coefficients(self.family, w))
@@ -309,9 +309,11 @@ impl<'a> Problem<'a> {
             for (moved, table) in moved.iter().zip(&mut tables) {
                 self.eval_block(&**moved, block, table);
             }
-            self.normal_block(block, &tables, &steps, &channels)
+            let mut sum = Normal::zeros(self.unknowns(), with_meat);
+            self.normal_block(block, &tables, (&steps, &channels), &mut sum);
+            sum
         });
-        let mut sum = Normal::zeros(self.unknowns());
+        let mut sum = Normal::zeros(self.unknowns(), with_meat);
         blocks.iter().for_each(|b| sum.add(b));
         sum.jtj.fill_upper_triangle_with_lower_triangle();
         sum.meat.fill_upper_triangle_with_lower_triangle();
@@ -322,18 +324,17 @@ impl<'a> Problem<'a> {
         &self,
         block: usize,
         tables: &[Vec<f64>],
-        steps: &[f64],
-        channels: &[(Vec<f64>, DMatrix<f64>)],
-    ) -> Normal {
+        (steps, channels): (&[f64], &[Factors]),
+        sum: &mut Normal,
+    ) {
         let (k, n, p) = (
             self.family.lobe_count(),
             self.family.weights().len(),
             steps.len(),
         );
-        let mut sum = Normal::zeros(self.unknowns());
         // the unknowns one residual depends on: the shape and its own channel's weights
         let mut row = vec![0.0; p + n];
-        let mut pulled = vec![0.0; self.unknowns()];
+        let mut pulled = vec![0.0; sum.meat.nrows()];
         for (s, (w, ci, y)) in self.rows(block).enumerate() {
             let at = |t: usize| &tables[t][s * k..(s + 1) * k];
             let lobes = at(p);
@@ -345,20 +346,17 @@ impl<'a> Problem<'a> {
                     row[j] = slope * (dot(coefficients, at(j)) - m) / steps[j];
                 }
                 for j in 0..n {
-                    row[p + j] = slope
-                        * by_weight
-                            .column(j)
-                            .iter()
-                            .zip(lobes)
-                            .map(|(a, b)| a * b)
-                            .sum::<f64>();
+                    row[p + j] = slope * dot(by_weight.column(j).as_slice(), lobes);
                 }
                 let index = |i: usize| if i < p { i } else { i + c * n };
                 for i in 0..p + n {
-                    sum.jtr[index(i)] += w * row[i] * r;
-                    pulled[index(i)] += w * row[i] * r;
+                    let wr = w * row[i];
+                    sum.jtr[index(i)] += wr * r;
+                    if let Some(pulled) = pulled.get_mut(index(i)) {
+                        *pulled += wr * r;
+                    }
                     for j in 0..=i {
-                        sum.jtj[(index(i), index(j))] += w * row[i] * row[j];
+                        sum.jtj[(index(i), index(j))] += wr * row[j];
                     }
                 }
             }
@@ -368,7 +366,6 @@ impl<'a> Problem<'a> {
                 }
             }
         }
-        sum
     }
 
     /// Steps of the forward differences: inside the range, 1e-6 of a variable of order one (rounding of the lobes,
@@ -463,7 +460,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// Factors of the lobes and their derivatives by the weights (lobes x weights).
-fn coefficients(family: &dyn Family, weights: &[f64]) -> (Vec<f64>, DMatrix<f64>) {
+fn coefficients(family: &dyn Family, weights: &[f64]) -> Factors {
     let (k, n) = (family.lobe_count(), weights.len());
     let mut at = vec![0.0; k];
     family.coefficients(weights, &mut at);

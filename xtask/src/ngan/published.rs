@@ -16,6 +16,9 @@ use std::sync::Arc;
 /// MERL's scale of red, green and blue, relative to red [Matusik2003].
 const CHANNEL_SCALE: [f64; 3] = [1.0, 1.15, 1.66];
 
+/// The number in a named column of a row.
+type Columns<'a> = &'a dyn Fn(&str) -> Result<f64>;
+
 /// A published model.
 pub(super) struct Published {
     /// The file `ngan2005_NAME.csv`.
@@ -23,7 +26,7 @@ pub(super) struct Published {
     /// The family of ours that contains it.
     pub(super) family: &'static str,
     /// From the row's shape columns to a lobe of unit weight: its text and a factor.
-    lobe: fn(&dyn Fn(&str) -> Result<f64>) -> Result<(String, f64)>,
+    lobe: fn(Columns<'_>) -> Result<(String, f64)>,
 }
 
 pub(super) const FAMILIES: &[Published] = &[
