@@ -1,5 +1,6 @@
 //! The command line as typed: verbs, flags, help. Nothing here does work.
 
+use crate::verbs::stress::Stress;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use scene_io::scene::{InterpolationName, SamplerName};
 use std::path::PathBuf;
@@ -34,6 +35,7 @@ pub(crate) enum Verb {
     Convert(Convert),
     Measure(Measure),
     Compare(Compare),
+    Stress(Stress),
 }
 
 /// Render a scene to EXR and PNG, with its own error estimate.

@@ -69,6 +69,7 @@ fn run(cli: &Cli) -> anyhow::Result<()> {
         Some(Verb::Convert(args)) => verbs::convert::run(&context, args),
         Some(Verb::Measure(args)) => verbs::measure::run(&context, args),
         Some(Verb::Compare(args)) => verbs::compare::run(&context, args),
+        Some(Verb::Stress(args)) => verbs::stress::run(&context, args),
     }
 }
 

@@ -8,6 +8,7 @@ pub(crate) mod measure;
 pub(crate) mod mix;
 pub(crate) mod plot;
 pub(crate) mod render;
+pub(crate) mod stress;
 
 use crate::args::Cli;
 use crate::output;

@@ -22,6 +22,7 @@ pub(super) const ARROWS: &[(&str, &[&str])] = &[
         &["brdf", "spectrum", "sampling", "brdf-formats"],
     ),
     ("brdf-sampling", &["brdf", "sampling"]),
+    ("brdf-fit", &["brdf", "brdf-models", "sampling", "spectrum"]),
     ("tracer", &["brdf", "spectrum", "sampling"]),
     (
         "scene-io",
@@ -39,8 +40,23 @@ pub(super) const ARROWS: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "stress",
+        &[
+            "spectrum",
+            "sampling",
+            "brdf-formats",
+            "brdf",
+            "brdf-models",
+            "brdf-table",
+            "brdf-sampling",
+            "tracer",
+            "testkit",
+        ],
+    ),
+    (
         "gonio",
         &[
+            "stress",
             "spectrum",
             "sampling",
             "brdf-formats",
@@ -50,6 +66,7 @@ pub(super) const ARROWS: &[(&str, &[&str])] = &[
             "brdf-table",
             "brdf-measure",
             "brdf-sampling",
+            "brdf-fit",
             "tracer",
             "scene-io",
         ],
@@ -61,6 +78,7 @@ pub(super) const ARROWS: &[(&str, &[&str])] = &[
             "brdf-table",
             "brdf-measure",
             "brdf-models",
+            "brdf-fit",
             "brdf",
             "scene-io",
             "spectrum",

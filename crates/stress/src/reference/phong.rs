@@ -61,16 +61,20 @@ pub(super) fn blinn_pdf(a: &Args<'_>) -> Real {
     a.mixture(&weights(a), d / (4.0 * a.cos_d()))
 }
 
-/// Names of the parameters of each lobe.
-const LOBES: [[&str; 5]; 3] = [
-    ["ks", "n", "cx", "cy", "cz"],
-    ["ks2", "n2", "cx2", "cy2", "cz2"],
-    ["ks3", "n3", "cx3", "cy3", "cz3"],
-];
+/// Names of the parameters of each lobe that is given: those of further lobes end in their number.
+fn lobes(a: &Args<'_>) -> impl Iterator<Item = [String; 5]> {
+    let named = |k: usize| {
+        ["ks", "n", "cx", "cy", "cz"].map(|name| match k {
+            1 => name.to_owned(),
+            _ => format!("{name}{k}"),
+        })
+    };
+    (1..).map(named).take_while(|[ks, ..]| a.values.is_given(ks))
+}
 
 pub(super) fn lafortune(a: &Args<'_>) -> Real {
     let mut f = a.diffuse();
-    for [ks, n, cx, cy, cz] in LOBES {
+    for [ks, n, cx, cy, cz] in &lobes(a).collect::<Vec<_>>() {
         let d = a.scalar(cx) * &a.wi.x * &a.wo.x
             + a.scalar(cy) * &a.wi.y * &a.wo.y
             + a.scalar(cz) * &a.wi.z * &a.wo.z;
@@ -83,10 +87,10 @@ pub(super) fn lafortune(a: &Args<'_>) -> Real {
 }
 
 pub(super) fn lafortune_pdf(a: &Args<'_>) -> Real {
-    let sum = |name| (0..3).map(|c| a.in_channel(name, c)).sum::<f64>();
+    let sum = |name: &str| (0..3).map(|c| a.in_channel(name, c)).sum::<f64>();
     let diffuse = Real::new(sum("kd"));
     let (mut total, mut pdf) = (diffuse.clone(), &diffuse * &a.wi.z / Real::pi());
-    for [ks, n, cx, cy, cz] in LOBES {
+    for [ks, n, cx, cy, cz] in &lobes(a).collect::<Vec<_>>() {
         let axis = Vector {
             x: a.scalar(cx) * &a.wo.x,
             y: a.scalar(cy) * &a.wo.y,
