@@ -12,6 +12,7 @@ mod cases;
 mod grid;
 mod real;
 mod reference;
+mod scenes;
 mod tally;
 
 pub use case::{Case, Effort, Row, run};

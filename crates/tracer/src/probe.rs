@@ -5,7 +5,7 @@
 use crate::geometry::Geometry;
 use crate::light::{Light, LightLanes};
 use crate::math::splat3;
-use crate::mode::{Emission, Mode};
+use crate::mode::Mode;
 use crate::path::{HitLanes, NONE, RayLanes};
 use crate::scene::Scene;
 use brdf::{LANES, Tag};
