@@ -4,7 +4,7 @@ use super::loaded::{Form, LoadedMeasured};
 use super::measured_model;
 use super::native::Native;
 use super::options::MaterialOptions;
-use super::pair::{self, SamplerReport};
+use super::pair::{self, SamplerReport, Visitor};
 use crate::cache::{Cache, combine};
 use crate::error::Error;
 use crate::scene::{InterpolationName, SamplerName};
@@ -218,6 +218,37 @@ impl Surface {
         };
         report.notes.splice(..0, self.notes);
         Ok((material, report))
+    }
+
+    /// Whether a sampler of its own comes with it: [`SamplerName::Native`].
+    #[must_use]
+    pub fn has_native_sampler(&self) -> bool {
+        match &self.form {
+            Form3::Grid(_) => false,
+            Form3::Model(..) => true,
+            Form3::Native(native) => native.sampler.is_some(),
+        }
+    }
+
+    /// Hands the sampler `name` stands for, in its concrete type, to `visitor`.
+    pub(super) fn sampler<V: Visitor>(
+        &self,
+        name: SamplerName,
+        cache: &Cache,
+        visitor: V,
+    ) -> Result<V::Out, Error> {
+        match (&self.form, name) {
+            (Form3::Model(model, _), SamplerName::Auto | SamplerName::Native) => {
+                let report = SamplerReport::new(SamplerName::Native, 0);
+                Ok(visitor.visit(Arc::clone(&model.sampler), report))
+            }
+            (Form3::Model(model, text), _) => {
+                let key = |_: &_| content_hash(text.as_bytes());
+                pair::build(&model.brdf, name, (key, cache), visitor)
+            }
+            (Form3::Native(native), _) => native.sampler(name, cache, visitor),
+            (Form3::Grid(grid), _) => pair::build(grid, name, (pair::table_key, cache), visitor),
+        }
     }
 }
 
