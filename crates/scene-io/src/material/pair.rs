@@ -42,7 +42,7 @@ impl SamplerReport {
 type Pair = (Box<dyn Material<3>>, SamplerReport);
 
 /// What is done with a sampler once its concrete type is known.
-pub(super) trait Visitor {
+pub(crate) trait Visitor {
     /// What comes of it.
     type Out;
     /// `report` is complete but for the bytes of the tables.

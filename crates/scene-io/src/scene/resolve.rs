@@ -1,7 +1,7 @@
 //! Laying a scene over its bases and filling in defaults.
 
 use super::checked::{Depth, FieldOfView, Point, SampleCount, Side, plain};
-use super::names::{PointsName, SamplerName};
+use super::names::{PointsName, SamplerName, SpectrumName};
 use super::schema::{
     CameraDoc, ExposureSpec, FilmDoc, FilterSpec, FormSpec, LightSpec, MaterialSpec, RenderDoc,
     SceneDoc, ShapeSpec,
@@ -75,8 +75,8 @@ pub struct RenderSpec {
     pub roulette: Option<u32>,
     /// Seed of every random decision.
     pub seed: u64,
-    /// Only `rgb` so far.
-    pub spectrum: String,
+    /// What the channels are.
+    pub spectrum: SpectrumName,
     /// For materials that name none themselves.
     pub sampler: SamplerName,
     /// Point set.
@@ -239,7 +239,7 @@ fn render(doc: RenderDoc) -> RenderSpec {
         depth: doc.depth.unwrap_or(Depth(5)).0,
         roulette: doc.roulette.map(|d| d.0),
         seed: doc.seed.unwrap_or(0),
-        spectrum: doc.spectrum.unwrap_or_else(|| "rgb".into()),
+        spectrum: doc.spectrum.unwrap_or(SpectrumName::Rgb),
         sampler: doc.sampler.unwrap_or(SamplerName::Auto),
         points: doc.points.unwrap_or(PointsName::Sobol),
     }
