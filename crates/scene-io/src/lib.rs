@@ -8,6 +8,7 @@
 //! - [`spectral`]: scenes and films in other channels than linear sRGB.
 //! - [`image`], [`compare`]: EXR and PNG, and how far two pictures are apart.
 //! - [`converge`]: error against run time of several ways to render a scene.
+//! - [`survey`]: how noisy, how fast and how right a sampler of a material is.
 //! - [`checkpoint`], [`Cache`]: what gonio keeps for itself.
 //!
 //! No process-wide state, no environment variables: folders to search and to cache in are arguments.
@@ -22,6 +23,7 @@ pub mod mesh;
 pub mod scene;
 pub mod sealed;
 pub mod spectral;
+pub mod survey;
 pub mod write;
 
 mod build;

@@ -35,10 +35,15 @@ pub(crate) struct Converge {
     #[arg(long, value_name = "FILE|MODEL")]
     pub(crate) material: Option<PathBuf>,
     /// What is compared, comma separated.
-    #[arg(long, value_name = "METHODS", value_delimiter = ',', default_value = "hvt,hvt+random,cosine,cosine+random")]
+    #[arg(
+        long,
+        value_name = "METHODS",
+        value_delimiter = ',',
+        default_value = "hvt,hvt+random,cosine,cosine+random"
+    )]
     pub(crate) methods: Vec<Method>,
     /// Seconds a method, all its runs together.
-    #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = parse_seconds)]
+    #[arg(long, value_name = "S", default_value_t = 10.0, allow_negative_numbers = true, value_parser = parse_seconds)]
     pub(crate) seconds: f64,
     /// Most samples a pixel of a run.
     #[arg(long, value_name = "N", default_value_t = 1 << 20, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
@@ -78,7 +83,12 @@ pub(crate) struct Converge {
 pub(crate) fn run(context: &Context, args: &Converge) -> Result<()> {
     let options = options(args);
     scene_io::write::folder(&args.output)?;
-    for name in ["converge.csv", "converge.json", "converge.svg", "converge.png"] {
+    for name in [
+        "converge.csv",
+        "converge.json",
+        "converge.svg",
+        "converge.png",
+    ] {
         scene_io::write::check(&args.output.join(name))?;
     }
     let scene = match &args.scene {
@@ -132,7 +142,8 @@ fn options(args: &Converge) -> Options {
 
 fn title(args: &Converge, scene: &SceneFile) -> String {
     let stem = |path: &Path| {
-        path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned())
+        path.file_stem()
+            .map_or_else(String::new, |s| s.to_string_lossy().into_owned())
     };
     let about = if scene.about.is_empty() {
         stem(&scene.path)
@@ -171,7 +182,10 @@ fn write(outcome: &Outcome, args: &Converge, title: &str) -> Result<(), Error> {
     if let Ok(svg) = converge::chart(outcome, title).svg((960, 680)) {
         bytes("converge.svg", svg.as_bytes())?;
         let png = plot::png(&svg, 1.5);
-        bytes("converge.png", &png.map_err(|e| Error::new(ErrorKind::Write, e.to_string()))?)?;
+        bytes(
+            "converge.png",
+            &png.map_err(|e| Error::new(ErrorKind::Write, e.to_string()))?,
+        )?;
     }
     Ok(())
 }

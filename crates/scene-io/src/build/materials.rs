@@ -2,13 +2,13 @@
 
 use super::Places;
 use crate::error::Error;
-use crate::material::{MaterialOptions, SamplerReport, Surface, identify, load_measured};
+use crate::material::{SamplerReport, identify};
 use crate::scene::{
     FileMaterial, MaterialSpec, MixMaterial, ModelMaterial, SamplerName, SceneFile,
 };
-use crate::spectral::{self, FromScene, Palette};
+use crate::spectral::{FromScene, Palette};
 use brdf::Material;
-use spectrum::{Basis, RgbSpace};
+use spectrum::Basis;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use tracer::Mode;
@@ -93,41 +93,7 @@ fn surface<F: FromScene>(
     spec: &MaterialSpec,
     places: &Places,
 ) -> Result<(F, Option<PathBuf>), Error> {
-    let default = file.render.sampler;
     match spec {
-        MaterialSpec::File(m) => {
-            let path = places.data.find(&m.path, &m.home)?;
-            let options = MaterialOptions::of_file(m, default);
-            let loaded = load_measured(&path, &options)?;
-            Ok((F::of_file(&loaded, &options, &places.cache)?, Some(path)))
-        }
-        MaterialSpec::Model(m) => {
-            let options = MaterialOptions::of_model(m, default);
-            Ok((F::of_rgb(Surface::of_model(&m.model, &options)?), None))
-        }
-        MaterialSpec::Measured(m) => {
-            let options = MaterialOptions::of_model(m, default);
-            let rgb = Surface::of_measured_model(&m.model, &options)?;
-            Ok((F::of_rgb(rgb), None))
-        }
-        MaterialSpec::Lambert {
-            reflectance,
-            spectrum: None,
-        } => {
-            let [r, g, b] = reflectance.0;
-            let text = format!("lambert:kd={r}/{g}/{b}");
-            let rgb = Surface::of_model(&text, &MaterialOptions::default())?;
-            Ok((F::flat(rgb, spectral::colour(reflectance.0)), None))
-        }
-        MaterialSpec::Lambert {
-            reflectance,
-            spectrum: Some(rows),
-        } => {
-            let spectrum = spectral::reflectance(rows)?.scaled(reflectance.0[0]);
-            let rgb = Basis::Rgb(RgbSpace::srgb()).project(&spectrum);
-            let rgb = Surface::constant(std::array::from_fn(|c| rgb[c]));
-            Ok((F::flat(rgb, spectrum), None))
-        }
         MaterialSpec::Mix(mix) => {
             let mut parts = Vec::new();
             for (name, weight) in &mix.parts {
@@ -141,6 +107,7 @@ fn surface<F: FromScene>(
             }
             Ok((F::mix(parts)?, None))
         }
+        alone => F::of_spec(alone, places),
     }
 }
 

@@ -105,7 +105,8 @@ pub struct Outcome {
     pub interrupted: bool,
 }
 
-/// Measures all methods. `partial` is shown the outcome so far after each of them, so that nothing is lost.
+/// Measures all methods. `partial` is shown the outcome so far after the reference and after each of them, so
+/// that nothing is lost.
 ///
 /// # Errors
 /// Whatever [`crate::build_scene`] refuses; a strategy that cannot find the scene's lights; a reference that does not
@@ -134,6 +135,7 @@ pub fn run(
         ratios: Vec::new(),
         interrupted: false,
     };
+    partial(&outcome)?;
     for numbered in options.methods.iter().copied().enumerate() {
         if clock.stopped() {
             break;
@@ -162,10 +164,10 @@ fn check(scene: &SceneFile, options: &Options) -> Result<(), Error> {
             "expected films of at most {MAX_BYTES} bytes in all, found {bytes}: choose a smaller size or fewer runs"
         )));
     }
-    let all = options.methods.iter().chain([&options.reference_method]);
+    let mut all = options.methods.iter().chain([&options.reference_method]);
     let singular = (scene.lights.iter())
         .any(|l| matches!(l, LightSpec::Point { .. } | LightSpec::Directional { .. }));
-    for method in all.filter(|m| singular && m.strategy == Strategy::BsdfOnly) {
+    if let Some(method) = all.find(|m| singular && m.strategy == Strategy::BsdfOnly) {
         return Err(Error::invalid(format!(
             "expected a light strategy that finds point and directional lights, found \"bsdf\" in {method}"
         )));

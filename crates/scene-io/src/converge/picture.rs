@@ -47,11 +47,12 @@ pub fn chart(outcome: &Outcome, title: &str) -> LogLog {
 
 fn series((k, entry): (usize, &Entry)) -> Series {
     let slope = entry.curve.slope.map_or(String::new(), |s| {
-        format!("   slope {:.2} ± {:.2}", s.value, s.error)
+        let digits = if s.error < 0.01 { 3 } else { 2 };
+        format!(", slope {:.digits$} ± {:.digits$}", s.value, s.error)
     });
     let resolved = || entry.curve.points.iter().filter(|p| p.resolved);
     let line = entry.curve.line.map(|line| {
-        let ends = [resolved().next(), resolved().last()];
+        let ends = [resolved().next(), resolved().next_back()];
         (ends.into_iter().flatten())
             .map(|p| (p.seconds, line.at(p.seconds.ln()).exp()))
             .collect()

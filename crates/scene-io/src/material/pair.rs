@@ -177,7 +177,7 @@ fn tabulate<S>(brdf: &impl Brdf<3>, build: impl FnOnce(Target<'_>) -> S) -> S {
     })
 }
 
-pub(super) fn luminance(brdf: &(impl Brdf<3> + ?Sized), wi: DVec3, wo: DVec3) -> f64 {
+pub(crate) fn luminance(brdf: &(impl Brdf<3> + ?Sized), wi: DVec3, wo: DVec3) -> f64 {
     let f = brdf.eval(wi, wo);
     f.iter().zip(LUMINANCE_SRGB).map(|(v, w)| v * w).sum()
 }

@@ -1,14 +1,17 @@
 //! Any material as linear sRGB reflectance.
 
 use super::loaded::{Form, LoadedMeasured};
+use super::measured_file::load_measured;
 use super::measured_model;
 use super::native::Native;
 use super::options::MaterialOptions;
 use super::pair::{self, SamplerReport, Visitor};
+use crate::build::Places;
 use crate::cache::{Cache, combine};
 use crate::error::Error;
-use crate::scene::{InterpolationName, SamplerName};
+use crate::scene::{InterpolationName, MaterialSpec, SamplerName};
 use crate::sealed::content_hash;
+use crate::spectral;
 use brdf::{Brdf, DirectionSampler, Material, Measured, Paired, Status, Symmetry};
 use brdf_measure::MERL_DIMS;
 use brdf_models::{Built, Lambert, ParsedModel, parse_model};
@@ -19,6 +22,7 @@ use brdf_table::{
 use glam::DVec3;
 use spectrum::{Basis, RgbSpace};
 use std::fmt;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Reflectance in linear sRGB, before a sampler is chosen for it.
@@ -78,6 +82,48 @@ impl Surface {
         };
         let table = scaled(table, options.scale)?;
         Self::grid(table, interpolation, notes)
+    }
+
+    /// A material by itself, with the path it was read from; mixtures need the materials of their scene and are refused.
+    ///
+    /// # Errors
+    /// Missing or broken files, models that do not exist.
+    pub fn of_spec(spec: &MaterialSpec, places: &Places) -> Result<(Self, Option<PathBuf>), Error> {
+        let without = SamplerName::Auto;
+        Ok(match spec {
+            MaterialSpec::File(m) => {
+                let path = places.data.find(&m.path, &m.home)?;
+                let options = MaterialOptions::of_file(m, without);
+                let loaded = load_measured(&path, &options)?;
+                (Self::of_file(&loaded, &options, &places.cache)?, Some(path))
+            }
+            MaterialSpec::Model(m) => {
+                let options = MaterialOptions::of_model(m, without);
+                (Self::of_model(&m.model, &options)?, None)
+            }
+            MaterialSpec::Measured(m) => {
+                let options = MaterialOptions::of_model(m, without);
+                (Self::of_measured_model(&m.model, &options)?, None)
+            }
+            MaterialSpec::Lambert {
+                reflectance,
+                spectrum: Some(rows),
+            } => {
+                let spectrum = spectral::reflectance(rows)?.scaled(reflectance.0[0]);
+                let rgb = srgb().project(&spectrum);
+                (Self::constant(std::array::from_fn(|c| rgb[c])), None)
+            }
+            MaterialSpec::Lambert { reflectance, .. } => {
+                let [r, g, b] = reflectance.0;
+                let text = format!("lambert:kd={r}/{g}/{b}");
+                (Self::of_model(&text, &MaterialOptions::default())?, None)
+            }
+            MaterialSpec::Mix(_) => {
+                return Err(Error::invalid(
+                    "expected a material by itself, found a mixture",
+                ));
+            }
+        })
     }
 
     /// A model evaluated exactly, `ggx:alpha=0.1`.

@@ -20,7 +20,7 @@ pub use any::{AnyFilm, AnyScene};
 pub(crate) use any::{build, lights as scene_lights};
 pub use channels::Channels;
 pub use difference::{ColourDifference, Look, difference};
-pub(crate) use light::{check as check_light, colour, reflectance};
+pub(crate) use light::{check as check_light, reflectance};
 pub(crate) use palette::{FromScene, Palette, RgbPalette};
 pub use sheet::write_sheet;
 pub use study::{ModeResult, Study, finest, study};

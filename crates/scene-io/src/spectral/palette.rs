@@ -4,45 +4,29 @@ use super::channels::Channels;
 use super::hero;
 use super::light;
 use super::surface::SpectralSurface;
+use crate::build::Places;
 use crate::cache::Cache;
 use crate::error::Error;
-use crate::material::{LoadedMeasured, MaterialOptions, SamplerReport, Surface};
-use crate::scene::{Colour, LightSpectrum, SamplerName};
+use crate::material::{MaterialOptions, SamplerReport, Surface, load_measured};
+use crate::scene::{Colour, LightSpectrum, MaterialSpec, SamplerName};
 use brdf::{HERO, Material, RotatedTable, Rotation};
 use spectrum::matrix::transform;
 use spectrum::{LinearUplift, Samples, Spectrum, Viewing, table_srgb_from_xyz};
+use std::path::PathBuf;
 use std::sync::Arc;
 use tracer::{Fixed, Hero, HeroEmission, Mode};
 
 /// Surfaces as scene files name them.
 pub(crate) trait FromScene: Sized {
-    /// A measured file.
-    fn of_file(
-        loaded: &LoadedMeasured,
-        options: &MaterialOptions,
-        cache: &Cache,
-    ) -> Result<Self, Error>;
-    /// What is known in linear sRGB only: models, and models measured.
-    fn of_rgb(rgb: Surface) -> Self;
-    /// The same reflectance in all directions, also told as linear sRGB.
-    fn flat(rgb: Surface, reflectance: Spectrum) -> Self;
+    /// What is no mixture, and the file it was read from.
+    fn of_spec(spec: &MaterialSpec, places: &Places) -> Result<(Self, Option<PathBuf>), Error>;
     /// A weighted sum.
     fn mix(parts: Vec<(Self, f64)>) -> Result<Self, Error>;
 }
 
 impl FromScene for Surface {
-    fn of_file(
-        loaded: &LoadedMeasured,
-        options: &MaterialOptions,
-        cache: &Cache,
-    ) -> Result<Self, Error> {
-        Self::of_file(loaded, options, cache)
-    }
-    fn of_rgb(rgb: Surface) -> Self {
-        rgb
-    }
-    fn flat(rgb: Surface, _: Spectrum) -> Self {
-        rgb
+    fn of_spec(spec: &MaterialSpec, places: &Places) -> Result<(Self, Option<PathBuf>), Error> {
+        Self::of_spec(spec, places)
     }
     fn mix(parts: Vec<(Self, f64)>) -> Result<Self, Error> {
         Self::mix(&parts)
@@ -50,18 +34,31 @@ impl FromScene for Surface {
 }
 
 impl FromScene for SpectralSurface {
-    fn of_file(
-        loaded: &LoadedMeasured,
-        options: &MaterialOptions,
-        cache: &Cache,
-    ) -> Result<Self, Error> {
-        Self::of_file(loaded, options, cache)
-    }
-    fn of_rgb(rgb: Surface) -> Self {
-        Self::of_rgb(rgb)
-    }
-    fn flat(rgb: Surface, reflectance: Spectrum) -> Self {
-        Self::flat(rgb, reflectance)
+    fn of_spec(spec: &MaterialSpec, places: &Places) -> Result<(Self, Option<PathBuf>), Error> {
+        match spec {
+            MaterialSpec::File(m) => {
+                let path = places.data.find(&m.path, &m.home)?;
+                let options = MaterialOptions::of_file(m, SamplerName::Auto);
+                let loaded = load_measured(&path, &options)?;
+                let surface = Self::of_file(&loaded, &options, &places.cache)?;
+                Ok((surface, Some(path)))
+            }
+            MaterialSpec::Lambert {
+                reflectance,
+                spectrum,
+            } => {
+                let rgb = Surface::of_spec(spec, places)?.0;
+                let flat = match spectrum {
+                    None => light::colour(reflectance.0),
+                    Some(rows) => light::reflectance(rows)?.scaled(reflectance.0[0]),
+                };
+                Ok((Self::flat(rgb, flat), None))
+            }
+            _ => {
+                let (rgb, path) = Surface::of_spec(spec, places)?;
+                Ok((Self::of_rgb(rgb), path))
+            }
+        }
     }
     fn mix(parts: Vec<(Self, f64)>) -> Result<Self, Error> {
         Self::mix(parts)

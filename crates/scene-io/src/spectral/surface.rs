@@ -5,7 +5,7 @@ use super::hero;
 use crate::cache::Cache;
 use crate::error::Error;
 use crate::material::{
-    LoadedMeasured, MaterialOptions, SamplerReport, SamplerVisitor, Surface, SurfaceForm,
+    LoadedMeasured, MaterialOptions, SamplerReport, Surface, SurfaceForm, Visitor,
 };
 use crate::scene::SamplerName;
 use brdf::{
@@ -352,7 +352,7 @@ enum SpectralSampler {
 /// Keeps the sampler that comes.
 struct Keep;
 
-impl SamplerVisitor for Keep {
+impl Visitor for Keep {
     type Out = (SpectralSampler, SamplerReport);
 
     fn visit<S: DirectionSampler + 'static>(self, sampler: S, report: SamplerReport) -> Self::Out {

@@ -57,9 +57,14 @@ impl Report {
     pub(super) fn new(outcome: &Outcome, args: &Converge) -> Self {
         let name = |k: usize| outcome.entries[k].method.to_string();
         let reference = &outcome.reference;
-        let mut written: Vec<PathBuf> = ["converge.csv", "converge.json", "converge.svg", "converge.png"]
-            .map(|f| args.output.join(f))
-            .into();
+        let mut written: Vec<PathBuf> = [
+            "converge.csv",
+            "converge.json",
+            "converge.svg",
+            "converge.png",
+        ]
+        .map(|f| args.output.join(f))
+        .into();
         if args.reference.is_none() {
             written.push(args.output.join("reference.exr"));
         }
@@ -92,7 +97,10 @@ impl Report {
 
     pub(super) fn print(&self, out: &mut String) -> fmt::Result {
         if self.interrupted {
-            writeln!(out, "interrupted: methods and levels that were complete are kept")?;
+            writeln!(
+                out,
+                "interrupted: methods and levels that were complete are kept"
+            )?;
         }
         writeln!(
             out,
@@ -109,7 +117,10 @@ impl Report {
             c.print(out)?;
         }
         let percent = 100.0 * self.target;
-        writeln!(out, "\ntime to a relative RMSE of {percent:.4} %, with 95 % intervals:")?;
+        writeln!(
+            out,
+            "\ntime to a relative RMSE of {percent:.4} %, with 95 % intervals:"
+        )?;
         for r in &self.ratios {
             writeln!(
                 out,
@@ -119,7 +130,11 @@ impl Report {
                 short(r.ratio),
                 short(r.ci[0]),
                 short(r.ci[1]),
-                if r.extrapolated { ", on lines continued beyond their points" } else { "" }
+                if r.extrapolated {
+                    ", on lines continued beyond their points"
+                } else {
+                    ""
+                }
             )?;
         }
         if self.ratios.is_empty() {
@@ -181,7 +196,10 @@ fn curve(entry: &scene_io::converge::Entry) -> Curve {
         slope_spp: value(entry.curve.slope_spp),
         slope_spp_error: error(entry.curve.slope_spp),
         seconds_to_target: seconds,
-        seconds_to_target_error: entry.reached.zip(seconds).map(|(r, s)| s * r.ln_seconds.error),
+        seconds_to_target_error: entry
+            .reached
+            .zip(seconds)
+            .map(|(r, s)| s * r.ln_seconds.error),
         extrapolated: entry.reached.map(|r| r.extrapolated),
         points: (entry.curve.points.iter())
             .map(|p| Point {
