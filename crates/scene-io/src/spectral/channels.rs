@@ -1,17 +1,21 @@
 //! What the channels of a render mean.
 
 use spectrum::matrix::transform;
-use spectrum::{Basis, Observer, Spectrum, Viewing, table_srgb_from_xyz};
+use spectrum::{Basis, Bins, Observer, Spectrum, Viewing, table_srgb_from_xyz};
 
 /// The channels of a render: functions of wavelength that share the spectrum among them.
 ///
-/// A reflectance has its mean over each (or its value at each band); light is told *relative to a reference*, so that
+/// A reflectance has its value at each band, or its mean over each bin: the mean that the reference and the eye see,
+/// weighted by power times colour-matching functions, with which light reflected once keeps its colour better than with
+/// the plain mean. Light is told *relative to a reference*, so that
 /// what the film adds up per channel needs only the integrals of reference times colour-matching function, which
 /// are computed exactly. For lights of the reference's shape nothing is lost but what the reflectances vary within a
 /// channel; another light is told by the factor per channel that comes nearest to its own exact integrals.
 #[derive(Clone, Debug)]
 pub struct Channels {
     basis: Basis,
+    /// Luminance 1.
+    reference: Spectrum,
     /// Power of the reference in each channel.
     power: Vec<f64>,
     /// XYZ that one unit of each channel adds.
@@ -29,6 +33,7 @@ impl Channels {
         Self {
             srgb: xyz.iter().map(|w| transform(&matrix, *w)).collect(),
             power: basis.project(reference),
+            reference: reference.clone(),
             xyz,
             basis,
         }
@@ -83,25 +88,49 @@ impl Channels {
     /// A row for each channel of `native`: what one unit of it adds to each of these. White goes to ones.
     #[must_use]
     pub fn rows(&self, native: &Basis) -> Vec<Vec<f64>> {
-        let mut rows = native.rows_to(&self.basis);
-        if self.basis == Basis::Xyz {
-            let white = Viewing::standard().white();
-            for row in &mut rows {
-                row.iter_mut().zip(white).for_each(|(v, w)| *v /= w);
-            }
+        match &self.basis {
+            Basis::Bins(_) => (native.reconstruction().iter())
+                .map(|unit| self.reflectance(unit))
+                .collect(),
+            Basis::Xyz => (native.rows_to(&self.basis).into_iter())
+                .map(relative)
+                .collect(),
+            _ => native.rows_to(&self.basis),
         }
-        rows
     }
 
     /// The channels of a reflectance; ones for the perfect white.
     #[must_use]
     pub fn reflectance(&self, spectrum: &Spectrum) -> Vec<f64> {
-        let mut values = self.basis.project(spectrum);
-        if self.basis == Basis::Xyz {
-            let white = Viewing::standard().white();
-            values.iter_mut().zip(white).for_each(|(v, w)| *v /= w);
+        match &self.basis {
+            Basis::Bins(bins) => self.seen_means(bins, spectrum),
+            Basis::Xyz => relative(self.basis.project(spectrum)),
+            _ => self.basis.project(spectrum),
         }
-        values
+    }
+
+    /// Means over bins as the reference and the eye see them: x for which x times the bin's own (X, Y, Z) is the nearest
+    /// to those of the reflectance in it. A mean with positive weights; the plain one where nothing is seen.
+    fn seen_means(&self, bins: &Bins, spectrum: &Spectrum) -> Vec<f64> {
+        let observer = Observer::CIE_1931;
+        let (matching, seen) = (observer.spectra(), observer.range_nm());
+        let last = bins.len() - 1;
+        let mean = |k: usize, [from, to]: [f64; 2]| {
+            // the outermost bins go on to the ends of what is seen
+            let from = if k == 0 { seen[0].min(from) } else { from };
+            let to = if k == last { seen[1].max(to) } else { to };
+            let reflected: [f64; 3] = std::array::from_fn(|c| {
+                let factors = [spectrum, &self.reference, &matching[c]];
+                Spectrum::integral_of_product(factors, [from, to])
+            });
+            let square = dot(self.xyz[k], self.xyz[k]);
+            if square > 0.0 {
+                dot(reflected, self.xyz[k]) / square
+            } else {
+                spectrum.mean([from, to])
+            }
+        };
+        bins.ranges().enumerate().map(|(k, r)| mean(k, r)).collect()
     }
 
     /// The channels of a light, whose luminance is the integral of its power times y.
@@ -110,7 +139,6 @@ impl Channels {
     /// 0 where the reference is dark.
     #[must_use]
     pub fn emission(&self, power: &Spectrum) -> Vec<f64> {
-        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
         xyz_weights(&self.basis, power)
             .into_iter()
             .zip(&self.xyz)
@@ -124,6 +152,17 @@ impl Channels {
             })
             .collect()
     }
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// XYZ over that of white.
+fn relative(mut xyz: Vec<f64>) -> Vec<f64> {
+    let white = Viewing::standard().white();
+    xyz.iter_mut().zip(white).for_each(|(v, w)| *v /= w);
+    xyz
 }
 
 /// XYZ that one unit of each channel adds under light of power `light`: exact integrals.
@@ -143,7 +182,7 @@ fn xyz_weights(basis: &Basis, light: &Spectrum) -> Vec<[f64; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spectrum::{Bins, Illuminant, Outside};
+    use spectrum::{Illuminant, Outside};
 
     fn unit(light: Illuminant) -> Spectrum {
         let spectrum = light.spectrum();
