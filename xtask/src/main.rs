@@ -14,6 +14,7 @@ mod check;
 mod codegen;
 mod fixtures;
 mod interpolation;
+mod ngan;
 mod process;
 mod render_all;
 mod repo;
@@ -30,6 +31,7 @@ cargo xtask tidy          the repository's own rules
 cargo xtask fixtures      make data-fixtures/ again; --check: compare only
 cargo xtask codegen       make the generated tables again; --check: compare only
 cargo xtask interpolation cross-validate the interpolants on Cornell files
+cargo xtask ngan DIR     our fits against the published ones, on a folder of MERL files
 cargo xtask render-all    all scenes their data allow, with a contact sheet; see --help
 ";
 
@@ -53,6 +55,7 @@ fn run(args: &[String]) -> Result<()> {
         Some("fixtures") => fixtures::run(rest),
         Some("codegen") => codegen::run(rest),
         Some("interpolation") => interpolation::run(rest),
+        Some("ngan") => ngan::run(rest),
         Some("render-all") => render_all::run(rest),
         Some("help" | "--help" | "-h") => {
             print!("{HELP}");
