@@ -155,7 +155,10 @@ fn csv(modes: &[Row]) -> String {
             r.delta_e_raw
         )
     };
-    modes.iter().map(line).fold(head.to_owned(), |all, l| all + &l)
+    modes
+        .iter()
+        .map(line)
+        .fold(head.to_owned(), |all, l| all + &l)
 }
 
 fn print(r: &Report, out: &mut String) -> fmt::Result {
@@ -165,7 +168,10 @@ fn print(r: &Report, out: &mut String) -> fmt::Result {
         "{}: CIEDE2000 from {} over {pixels} pixels, noise taken off",
         r.scene, r.reference
     )?;
-    writeln!(out, "mode     seconds  error %     mean      95 %   (with noise)")?;
+    writeln!(
+        out,
+        "mode     seconds  error %     mean      95 %   (with noise)"
+    )?;
     for m in &r.modes {
         writeln!(
             out,

@@ -24,6 +24,11 @@ const MAX_PROFILE: usize = 1000;
 pub(super) fn scene(scene: &SceneFile) -> Result<(), Error> {
     camera(&scene.camera).map_err(|e| e.in_field("camera"))?;
     film(scene).map_err(|e| e.in_field("film"))?;
+    let [from, to] = scene.render.range_nm;
+    if from >= to {
+        let message = format!("expected two ascending wavelengths, found {from} and {to}");
+        return Err(Error::invalid(message).in_field("render.range_nm"));
+    }
     if let Some(name) = &scene.main_material {
         known(name, &scene.materials).map_err(|e| e.in_field("main_material"))?;
     }

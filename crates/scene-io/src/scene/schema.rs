@@ -54,6 +54,7 @@ pub(crate) struct RenderDoc {
     pub roulette: Option<Depth>,
     pub seed: Option<u64>,
     pub spectrum: Option<SpectrumName>,
+    pub range_nm: Option<(Wavelength, Wavelength)>,
     pub sampler: Option<SamplerName>,
     pub points: Option<PointsName>,
 }

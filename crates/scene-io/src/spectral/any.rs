@@ -215,18 +215,22 @@ pub(crate) fn build(
     }
     let reference = lights(file)?.reference();
     let channels = |basis: Basis| Arc::new(Channels::new(basis, &reference));
+    let bins = |count: usize| {
+        let bins = Bins::uniform(count, file.render.range_nm).map(Basis::Bins);
+        bins.map_err(|e| Error::invalid(e.to_string()).in_field("render.range_nm"))
+    };
     Ok(match name {
         SpectrumName::Rgb | SpectrumName::Hero => {
             let palette = HeroPalette::new(channels(hero::basis()));
             parts(file, places, &palette, notes)?.map(|s| AnyScene::Hero(Box::new(s)))
         }
         SpectrumName::Xyz => fixed(file, places, channels(Basis::Xyz), notes)?.map(AnyScene::Xyz),
-        SpectrumName::Eight => fixed(file, places, channels(bins(8)), notes)?.map(AnyScene::Bins8),
+        SpectrumName::Eight => fixed(file, places, channels(bins(8)?), notes)?.map(AnyScene::Bins8),
         SpectrumName::Sixteen => {
-            fixed(file, places, channels(bins(16)), notes)?.map(AnyScene::Bins16)
+            fixed(file, places, channels(bins(16)?), notes)?.map(AnyScene::Bins16)
         }
         SpectrumName::FortyFive => {
-            fixed(file, places, channels(bins(45)), notes)?.map(AnyScene::Bins45)
+            fixed(file, places, channels(bins(45)?), notes)?.map(AnyScene::Bins45)
         }
         SpectrumName::Native => {
             let bands = native_bands(file, places)?.0;
@@ -238,10 +242,6 @@ pub(crate) fn build(
             }
         }
     })
-}
-
-fn bins(count: usize) -> Basis {
-    Basis::Bins(Bins::visible(count))
 }
 
 fn fixed<const N: usize>(

@@ -212,7 +212,8 @@ mod tests {
         );
         assert!(noisy.raw_mean > 1.05 * exact, "{noisy:?} of {exact}");
         let equal = difference(&film(3, 0.02, grey), &film(4, 0.02, grey), &LOOK, &pixels).unwrap();
-        assert!(equal.mean < 0.3 * equal.raw_mean, "{equal:?}");
+        // two blocks of 96 and 24 pixels: what is left is the fourth root of their chance
+        assert!(equal.mean < 0.6 * equal.raw_mean, "{equal:?}");
         assert!(equal.raw_mean > 0.0 && equal.pixels == 120, "{equal:?}");
     }
 
