@@ -171,7 +171,7 @@ fn what_cannot_be_compared_is_refused_in_one_line() {
             "16 x 12",
         ),
         (
-            format!("converge {scene} --size 8000x8000 -o out"),
+            format!("converge {scene} --size 4000x4000 --runs 64 -o out"),
             1,
             "smaller size",
         ),
