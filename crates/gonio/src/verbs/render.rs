@@ -1,6 +1,6 @@
 //! `gonio render [SCENE.ron]`.
 
-pub(super) mod progress;
+mod progress;
 mod report;
 
 use super::Context;

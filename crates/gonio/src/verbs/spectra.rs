@@ -1,9 +1,8 @@
 //! `gonio spectra SCENE`: one scene in every mode, its colours against the finest answer.
 
 use super::Context;
-use super::render::progress::Watch;
 use crate::args::parse_size;
-use crate::output::Usage;
+use crate::output::{Usage, say};
 use anyhow::Result;
 use clap::Args;
 use scene_io::image::write_png;
@@ -91,14 +90,12 @@ pub(crate) fn run(context: &Context, args: &Spectra) -> Result<()> {
         Some(name) => name,
         None => finest(&file, &overrides, &context.places)?,
     };
-    let scene = overrides.apply(file.clone())?;
-    let pixels = u64::from(scene.film.width) * u64::from(scene.film.height);
-    let extra = usize::from(!args.modes.contains(&reference));
-    let renders = (args.modes.len() + extra) as u64;
-    let watch = Watch::new(pixels * u64::from(scene.render.spp) * renders, context.json)?;
+    say(format_args!(
+        "rendering {} modes, compared with {reference}",
+        args.modes.len()
+    ));
     let modes = (&args.modes[..], reference);
-    let found = study(&file, &overrides, &context.places, modes, &watch)?;
-    watch.finish();
+    let found = study(&file, &overrides, &context.places, modes, &())?;
     let report = write(&args.output, &args.scene, &found)?;
     context.report(&report, |out| print(&report, out))
 }

@@ -11,7 +11,7 @@ use tracer::Progress;
 
 /// Watches a render: a bar with the time left on a terminal, a line every tenth elsewhere; Ctrl-C ends it after the
 /// tiles at hand.
-pub(crate) struct Watch {
+pub(super) struct Watch {
     bar: ProgressBar,
     total: u64,
     done: AtomicU64,
@@ -22,7 +22,7 @@ pub(crate) struct Watch {
 
 impl Watch {
     /// `total` paths; `quiet` shows nothing unless stderr is a terminal.
-    pub(crate) fn new(total: u64, quiet: bool) -> Result<Self> {
+    pub(super) fn new(total: u64, quiet: bool) -> Result<Self> {
         let stop = process::watch_interrupts()?;
         let terminal = std::io::stderr().is_terminal();
         let bar = if terminal {
@@ -42,11 +42,11 @@ impl Watch {
         })
     }
 
-    pub(crate) fn finish(&self) {
+    pub(super) fn finish(&self) {
         self.bar.finish_and_clear();
     }
 
-    pub(crate) fn interrupted(&self) -> bool {
+    pub(super) fn interrupted(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }
 }
