@@ -13,6 +13,7 @@
 mod check;
 mod fixtures;
 mod interpolation;
+mod ngan;
 mod process;
 mod render_all;
 mod repo;
@@ -28,6 +29,7 @@ cargo xtask test          the tests; --slow: the slow statistics and golden rend
 cargo xtask tidy          the repository's own rules
 cargo xtask fixtures      make data-fixtures/ again; --check: compare only
 cargo xtask interpolation cross-validate the interpolants on Cornell files
+cargo xtask ngan DIR     our fits against the published ones, on a folder of MERL files
 cargo xtask render-all    all scenes their data allow, with a contact sheet; see --help
 ";
 
@@ -50,6 +52,7 @@ fn run(args: &[String]) -> Result<()> {
         Some("tidy") => tidy::run(),
         Some("fixtures") => fixtures::run(rest),
         Some("interpolation") => interpolation::run(rest),
+        Some("ngan") => ngan::run(rest),
         Some("render-all") => render_all::run(rest),
         Some("help" | "--help" | "-h") => {
             print!("{HELP}");

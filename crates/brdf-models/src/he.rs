@@ -342,7 +342,8 @@ mod tests {
     use crate::smith::Smith;
     use brdf::{Brdf, direction};
     use glam::DVec3;
-    use spectrum::{Observer, XYZ_FROM_LINEAR_SRGB, transform};
+    use spectrum::matrix::transform;
+    use spectrum::{Observer, XYZ_FROM_LINEAR_SRGB};
     use testkit::assert_relative;
 
     /// sigma = 40 um over tau = 200 um at 0.5 nm: g of 1e9 and more away from the horizon.
