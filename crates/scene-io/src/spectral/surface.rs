@@ -9,14 +9,14 @@ use crate::material::{
 };
 use crate::scene::SamplerName;
 use brdf::{
-    Brdf, DirectionSample, DirectionSampler, HERO, LANES, Lanes3, Material, Measured, Paired,
-    Projected, Rotated, RotatedTable, Rotation, SampleLanes, Spread, Status, TaggedBrdf,
+    Brdf, DirectionSampler, HERO, LANES, Lanes3, Material, Measured, Paired, Projected, Rotated,
+    RotatedTable, Rotation, Spread, Status, Tag, TaggedBrdf,
 };
 use brdf_measure::MERL_DIMS;
 use brdf_models::Lambert;
 use brdf_sampling::Hvt;
 use brdf_table::{GriddedN, HalfDiffTable, HeroGrid, Interpolation, PhiDomain};
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use spectrum::{Basis, LinearUplift, RgbSpace, Spectrum};
 use std::any::Any;
 use std::sync::Arc;
@@ -201,7 +201,7 @@ impl SpectralSurface {
                 let rows = three(table.basis());
                 let grid = GriddedN::<3>::new(table, interpolation).map_err(invalid)?;
                 let brdf = Spread::new(grid, rows);
-                Box::new(Paired { brdf, sampler })
+                paired(brdf, sampler)
             }
             Form::Grid(table, interpolation) => {
                 let table = if table.basis() == channels.basis() {
@@ -212,11 +212,11 @@ impl SpectralSurface {
                     Arc::new(mapped.map_err(invalid)?)
                 };
                 let brdf = GriddedN::<N>::new(table, interpolation).map_err(invalid)?;
-                Box::new(Paired { brdf, sampler })
+                paired(brdf, sampler)
             }
             Form::Rgb(brdf) => {
                 let brdf = Spread::new(brdf, three(&srgb()));
-                Box::new(Paired { brdf, sampler })
+                paired(brdf, sampler)
             }
             Form::Measured(measured, factors) => {
                 let mut rows = rows(measured.basis());
@@ -225,7 +225,7 @@ impl SpectralSurface {
                 }
                 let brdf = Projected::new(measured, rows)
                     .ok_or_else(|| invalid("expected a row a channel, found others"))?;
-                Box::new(Paired { brdf, sampler })
+                paired(brdf, sampler)
             }
             Form::Flat(_) => return Err(invalid("expected a table or a model")),
         };
@@ -261,17 +261,17 @@ impl SpectralSurface {
                     let basis = Arc::new(first(tables(table.basis())));
                     let grid = GriddedN::<3>::new(table, interpolation).map_err(invalid)?;
                     let brdf = Rotated::new(grid, basis);
-                    Box::new(Paired { brdf, sampler })
+                    paired(brdf, sampler)
                 }
                 31 => {
                     let grid = HeroGrid::<31>::new(table, interpolation, &lambda_nm);
                     let brdf = grid.map_err(invalid)?;
-                    Box::new(Paired { brdf, sampler })
+                    paired(brdf, sampler)
                 }
                 65 => {
                     let grid = HeroGrid::<65>::new(table, interpolation, &lambda_nm);
                     let brdf = grid.map_err(invalid)?;
-                    Box::new(Paired { brdf, sampler })
+                    paired(brdf, sampler)
                 }
                 _ => {
                     let tables = tables(table.basis());
@@ -280,12 +280,12 @@ impl SpectralSurface {
                         interpolation,
                     });
                     let brdf = HeroMeasured { measured, tables };
-                    Box::new(Paired { brdf, sampler })
+                    paired(brdf, sampler)
                 }
             },
             Form::Rgb(brdf) => {
                 let brdf = Rotated::new(brdf, Arc::new(first(tables(&srgb()))));
-                Box::new(Paired { brdf, sampler })
+                paired(brdf, sampler)
             }
             Form::Measured(measured, factors) => {
                 let mut tables = tables(measured.basis());
@@ -294,7 +294,7 @@ impl SpectralSurface {
                     values.for_each(|v| *v *= factor as f32);
                 }
                 let brdf = HeroMeasured { measured, tables };
-                Box::new(Paired { brdf, sampler })
+                paired(brdf, sampler)
             }
             Form::Flat(_) => return Err(invalid("expected a table or a model")),
         };
@@ -368,49 +368,14 @@ impl Visitor for Keep {
     }
 }
 
-impl DirectionSampler for SpectralSampler {
-    fn sample(&self, wo: DVec3, u: DVec2) -> Option<DirectionSample> {
-        match self {
-            Self::Hvt(s) => s.sample(wo, u),
-            Self::Other(s) => s.sample(wo, u),
-        }
-    }
-
-    fn pdf(&self, wi: DVec3, wo: DVec3) -> f64 {
-        match self {
-            Self::Hvt(s) => s.pdf(wi, wo),
-            Self::Other(s) => s.pdf(wi, wo),
-        }
-    }
-
-    fn keeps_stratification(&self) -> bool {
-        match self {
-            Self::Hvt(s) => s.keeps_stratification(),
-            Self::Other(s) => s.keeps_stratification(),
-        }
-    }
-
-    fn bytes(&self) -> usize {
-        match self {
-            Self::Hvt(s) => s.bytes(),
-            Self::Other(s) => s.bytes(),
-        }
-    }
-
-    #[inline(always)]
-    fn sample_lanes(&self, wo: &Lanes3, u: &[[f32; LANES]; 2]) -> SampleLanes {
-        match self {
-            Self::Hvt(s) => s.sample_lanes(wo, u),
-            Self::Other(s) => s.sample_lanes(wo, u),
-        }
-    }
-
-    #[inline(always)]
-    fn pdf_lanes(&self, wi: &Lanes3, wo: &Lanes3) -> [f32; LANES] {
-        match self {
-            Self::Hvt(s) => s.pdf_lanes(wi, wo),
-            Self::Other(s) => s.pdf_lanes(wi, wo),
-        }
+/// A reflectance and its sampler as one material.
+fn paired<const N: usize, T: Tag>(
+    brdf: impl TaggedBrdf<N, T> + 'static,
+    sampler: SpectralSampler,
+) -> Box<dyn Material<N, T>> {
+    match sampler {
+        SpectralSampler::Hvt(sampler) => Box::new(Paired { brdf, sampler }),
+        SpectralSampler::Other(sampler) => Box::new(Paired { brdf, sampler }),
     }
 }
 
