@@ -1,8 +1,9 @@
 //! The command line as typed: verbs, flags, help. Nothing here does work.
 
 use crate::verbs::stress::Stress;
+use crate::verbs::converge::Converge;
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use scene_io::scene::{InterpolationName, SamplerName};
+use scene_io::scene::{InterpolationName, SamplerName, SpectrumName};
 use std::path::PathBuf;
 
 /// Check, see, convert and render measured reflectance.
@@ -36,6 +37,8 @@ pub(crate) enum Verb {
     Measure(Measure),
     Compare(Compare),
     Stress(Stress),
+    Spectra(crate::verbs::spectra::Spectra),
+    Converge(Converge),
 }
 
 /// Render a scene to EXR and PNG, with its own error estimate.
@@ -65,6 +68,9 @@ pub(crate) struct Render {
     /// Worker threads; all cores by default.
     #[arg(long, value_name = "T", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
+    /// What the channels are: rgb, xyz, 8, 16, 45, native or hero.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) spectrum: Option<SpectrumName>,
     /// How directions are chosen on measured materials.
     #[arg(long, value_name = "NAME")]
     pub(crate) sampler: Option<SamplerName>,
@@ -284,7 +290,7 @@ fn parse_not_negative(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "expected a number, 0 or more".into())
 }
 
-fn parse_size(text: &str) -> Result<(u32, u32), String> {
+pub(crate) fn parse_size(text: &str) -> Result<(u32, u32), String> {
     let sides = text
         .split_once('x')
         .and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));

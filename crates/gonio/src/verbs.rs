@@ -1,6 +1,7 @@
 //! The verbs: each parses nothing, calls a library, prints.
 
 pub(crate) mod compare;
+pub(crate) mod converge;
 pub(crate) mod convert;
 pub(crate) mod eval;
 pub(crate) mod info;
@@ -9,6 +10,7 @@ pub(crate) mod mix;
 pub(crate) mod plot;
 pub(crate) mod render;
 pub(crate) mod stress;
+pub(crate) mod spectra;
 
 use crate::args::Cli;
 use crate::output;

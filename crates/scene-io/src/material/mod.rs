@@ -20,7 +20,9 @@ pub(crate) use measured_file::measured_from_bytes;
 pub use measured_file::{identify, load_measured};
 pub use options::MaterialOptions;
 pub use pair::SamplerReport;
+pub(crate) use pair::{Visitor, luminance};
 pub use surface::Surface;
+pub(crate) use surface::SurfaceForm;
 
 use crate::cache::Cache;
 use crate::error::Error;

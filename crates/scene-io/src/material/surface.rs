@@ -1,17 +1,20 @@
 //! Any material as linear sRGB reflectance.
 
 use super::loaded::{Form, LoadedMeasured};
+use super::measured_file::load_measured;
 use super::measured_model;
 use super::native::Native;
 use super::options::MaterialOptions;
-use super::pair::{self, SamplerReport};
+use super::pair::{self, SamplerReport, Visitor};
+use crate::build::Places;
 use crate::cache::{Cache, combine};
 use crate::error::Error;
-use crate::scene::{InterpolationName, SamplerName};
+use crate::scene::{InterpolationName, MaterialSpec, SamplerName};
 use crate::sealed::content_hash;
-use brdf::{Brdf, Material, Measured, Status, Symmetry};
+use crate::spectral;
+use brdf::{Brdf, DirectionSampler, Material, Measured, Paired, Status, Symmetry};
 use brdf_measure::MERL_DIMS;
-use brdf_models::{Built, ParsedModel, parse_model};
+use brdf_models::{Built, Lambert, ParsedModel, parse_model};
 use brdf_table::scattered::DEFAULT_DIMS;
 use brdf_table::{
     GriddedN, HalfDiffTable, Interpolation, PhiDomain, RglN, RglTable, ThinPlate, resample,
@@ -19,6 +22,7 @@ use brdf_table::{
 use glam::DVec3;
 use spectrum::{Basis, RgbSpace};
 use std::fmt;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Reflectance in linear sRGB, before a sampler is chosen for it.
@@ -33,6 +37,12 @@ enum Form3 {
     /// With its full text, which is all its values depend on.
     Model(Built<3>, String),
     Native(Native),
+}
+
+/// What a surface in linear sRGB is made of.
+pub(crate) enum SurfaceForm<'a> {
+    Grid(&'a GriddedN<3>),
+    Brdf(Arc<dyn Brdf<3>>),
 }
 
 impl fmt::Debug for Surface {
@@ -72,6 +82,48 @@ impl Surface {
         };
         let table = scaled(table, options.scale)?;
         Self::grid(table, interpolation, notes)
+    }
+
+    /// A material by itself, with the path it was read from; mixtures need the materials of their scene and are refused.
+    ///
+    /// # Errors
+    /// Missing or broken files, models that do not exist.
+    pub fn of_spec(spec: &MaterialSpec, places: &Places) -> Result<(Self, Option<PathBuf>), Error> {
+        let without = SamplerName::Auto;
+        Ok(match spec {
+            MaterialSpec::File(m) => {
+                let path = places.data.find(&m.path, &m.home)?;
+                let options = MaterialOptions::of_file(m, without);
+                let loaded = load_measured(&path, &options)?;
+                (Self::of_file(&loaded, &options, &places.cache)?, Some(path))
+            }
+            MaterialSpec::Model(m) => {
+                let options = MaterialOptions::of_model(m, without);
+                (Self::of_model(&m.model, &options)?, None)
+            }
+            MaterialSpec::Measured(m) => {
+                let options = MaterialOptions::of_model(m, without);
+                (Self::of_measured_model(&m.model, &options)?, None)
+            }
+            MaterialSpec::Lambert {
+                reflectance,
+                spectrum: Some(rows),
+            } => {
+                let spectrum = spectral::reflectance(rows)?.scaled(reflectance.0[0]);
+                let rgb = srgb().project(&spectrum);
+                (Self::constant(std::array::from_fn(|c| rgb[c])), None)
+            }
+            MaterialSpec::Lambert { reflectance, .. } => {
+                let [r, g, b] = reflectance.0;
+                let text = format!("lambert:kd={r}/{g}/{b}");
+                (Self::of_model(&text, &MaterialOptions::default())?, None)
+            }
+            MaterialSpec::Mix(_) => {
+                return Err(Error::invalid(
+                    "expected a material by itself, found a mixture",
+                ));
+            }
+        })
     }
 
     /// A model evaluated exactly, `ggx:alpha=0.1`.
@@ -136,6 +188,61 @@ impl Surface {
         });
         let notes = parts.iter().flat_map(|(s, _)| s.notes.clone()).collect();
         Self::grid(Arc::new(table), Interpolation::Linear, notes)
+    }
+
+    /// The same albedo in all directions; out of gamut, it may be negative.
+    pub(crate) fn constant(albedo: [f64; 3]) -> Self {
+        let lambert = Arc::new(Lambert { albedo });
+        let built = Built {
+            brdf: Arc::clone(&lambert) as Arc<dyn Brdf<3>>,
+            sampler: Arc::clone(&lambert) as Arc<dyn DirectionSampler>,
+            material: Box::new(Paired {
+                brdf: Arc::clone(&lambert),
+                sampler: lambert,
+            }),
+        };
+        let [r, g, b] = albedo;
+        let text = format!("lambert:kd={r}/{g}/{b}");
+        Self {
+            notes: vec![text.clone()],
+            form: Form3::Model(built, text),
+        }
+    }
+
+    /// A table in linear sRGB.
+    pub(crate) fn of_table(
+        table: HalfDiffTable,
+        interpolation: Interpolation,
+        notes: Vec<String>,
+    ) -> Result<Self, Error> {
+        Self::grid(Arc::new(table), interpolation, notes)
+    }
+
+    /// A measured file as cells in its own channels, if it is rendered as cells.
+    ///
+    /// The grid of a thin plate is kept in `cache`.
+    pub(crate) fn native_grid(
+        loaded: &LoadedMeasured,
+        cache: &Cache,
+    ) -> Option<(Arc<HalfDiffTable>, Interpolation, Vec<String>)> {
+        let mut notes = loaded.notes();
+        match &loaded.form {
+            Form::Grid(grid) => Some((Arc::clone(&grid.table), grid.interpolation, notes)),
+            Form::ThinPlate(plate, key) => {
+                let table = resampled(plate, (*key, cache), &mut notes);
+                Some((Arc::new(table), Interpolation::Linear, notes))
+            }
+            Form::Rgl(..) | Form::Opaque(_) => None,
+        }
+    }
+
+    /// What it is made of.
+    pub(crate) fn form(&self) -> SurfaceForm<'_> {
+        match &self.form {
+            Form3::Grid(grid) => SurfaceForm::Grid(grid),
+            Form3::Model(model, _) => SurfaceForm::Brdf(Arc::clone(&model.brdf)),
+            Form3::Native(native) => SurfaceForm::Brdf(Arc::clone(&native.brdf)),
+        }
     }
 
     fn rgl(
@@ -219,6 +326,37 @@ impl Surface {
         report.notes.splice(..0, self.notes);
         Ok((material, report))
     }
+
+    /// Whether a sampler of its own comes with it: [`SamplerName::Native`].
+    #[must_use]
+    pub fn has_native_sampler(&self) -> bool {
+        match &self.form {
+            Form3::Grid(_) => false,
+            Form3::Model(..) => true,
+            Form3::Native(native) => native.sampler.is_some(),
+        }
+    }
+
+    /// Hands the sampler `name` stands for, in its concrete type, to `visitor`.
+    pub(crate) fn sampler<V: Visitor>(
+        &self,
+        name: SamplerName,
+        cache: &Cache,
+        visitor: V,
+    ) -> Result<V::Out, Error> {
+        match (&self.form, name) {
+            (Form3::Model(model, _), SamplerName::Auto | SamplerName::Native) => {
+                let report = SamplerReport::new(SamplerName::Native, 0);
+                Ok(visitor.visit(Arc::clone(&model.sampler), report))
+            }
+            (Form3::Model(model, text), _) => {
+                let key = |_: &_| content_hash(text.as_bytes());
+                pair::build(&model.brdf, name, (key, cache), visitor)
+            }
+            (Form3::Native(native), _) => native.sampler(name, cache, visitor),
+            (Form3::Grid(grid), _) => pair::build(grid, name, (pair::table_key, cache), visitor),
+        }
+    }
 }
 
 fn parse(text: &str) -> Result<ParsedModel<3>, Error> {
@@ -238,9 +376,19 @@ fn from_plate(
     let plate = plate
         .to_basis(srgb(), &matrix)
         .map_err(|e| Error::invalid(e.to_string()))?;
+    Ok(resampled(&plate, (key, cache), notes))
+}
+
+/// A thin plate on its grid, in the channels it has.
+fn resampled(
+    plate: &ThinPlate,
+    (key, cache): (u64, &Cache),
+    notes: &mut Vec<String>,
+) -> HalfDiffTable {
     let [n_h, n_d, n_p] = DEFAULT_DIMS.map(|n| n as u64);
-    let resampled = cache.grid(combine(&[key, n_h, n_d, n_p]), notes, || {
-        resample(&plate, plate.domain(), DEFAULT_DIMS)
+    let channels = content_hash(format!("{:?}", plate.basis()).as_bytes());
+    let resampled = cache.grid(combine(&[key, channels, n_h, n_d, n_p]), notes, || {
+        resample(plate, plate.domain(), DEFAULT_DIMS)
     });
     notes.push(format!(
         "resampled onto {} x {} x {} cells, RMS error {:.2} % of the mean",
@@ -249,7 +397,7 @@ fn from_plate(
         DEFAULT_DIMS[2],
         100.0 * resampled.relative_error()
     ));
-    Ok(resampled.table)
+    resampled.table
 }
 
 fn scaled(table: Arc<HalfDiffTable>, scale: [f64; 3]) -> Result<Arc<HalfDiffTable>, Error> {

@@ -58,6 +58,16 @@ names!(
         Auto = "auto",
         /// Half-vector table: nearly noiseless, a few kilobytes.
         Hvt = "hvt",
+        /// The same in 1 KB.
+        HvtTiny = "hvt-tiny",
+        /// The same in 43 KB.
+        HvtFine = "hvt-fine",
+        /// The same in 111 KB.
+        HvtReference = "hvt-reference",
+        /// Ten GGX lobes and a cosine.
+        Dictionary = "dictionary",
+        /// The best single GGX lobe and a cosine.
+        GgxSingle = "ggx-single",
         /// Exact inversion per slice of the known direction.
         Inversion = "inversion",
         /// The thesis' rejection per slice.
@@ -120,6 +130,26 @@ names!(
         Schlick = "schlick",
         /// The nearest row.
         Nearest = "nearest",
+    }
+);
+
+names!(
+    /// What the channels of a render are.
+    SpectrumName, "a spectrum" {
+        /// Linear sRGB.
+        Rgb = "rgb",
+        /// CIE XYZ relative to white.
+        Xyz = "xyz",
+        /// Eight bins from 380 to 720 nm.
+        Eight = "8",
+        /// Sixteen bins.
+        Sixteen = "16",
+        /// Forty-five bins.
+        FortyFive = "45",
+        /// The bands of the main material's file, 31 or 65.
+        Native = "native",
+        /// Eight wavelengths a path, others on each.
+        Hero = "hero",
     }
 );
 

@@ -2,10 +2,10 @@
 
 use crate::case::Case;
 use crate::real::Real;
+use sampling::integrate::{gauss_legendre, hemisphere};
+use sampling::special::{chi2_tail, student_two_sided};
 use sampling::{Welford, student_quantile};
 use std::f64::consts::TAU;
-use testkit::integrate::{gauss_legendre, hemisphere};
-use testkit::special::{chi2_tail, student_two_sided};
 
 pub(super) fn cases() -> Vec<Case> {
     vec![
