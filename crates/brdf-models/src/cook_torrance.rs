@@ -122,7 +122,7 @@ impl<const N: usize> Brdf<N> for CookTorrance<N> {
         } else {
             0.0
         };
-        let f = self.fresnel.eval(half.cos_d());
+        let f = self.fresnel.eval_at(half.cos_d(), half.sin2_d());
         std::array::from_fn(|c| self.diffuse[c] * FRAC_1_PI + self.specular[c] * f[c] * lobe)
     }
 

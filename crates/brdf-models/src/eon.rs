@@ -45,13 +45,14 @@ pub(crate) fn build<const N: usize>(values: &Values) -> Built<N> {
 
 /// C1 - G/pi: the directional loss of single scattering is A r times this.
 ///
-/// (1 - sin^3)/cos is written as cos (1 + sin + sin^2)/(1 + sin), finite at the horizon.
+/// Written about the horizon, where it vanishes like the cosine: with m = cos, s = sin and pi/2 - theta = asin m,
+/// pi/2 - 2/3 - G = (pi/2 - 2/3) m^2/(1 + s) + s asin m + s^2 m - 2/3 s m (1 + s + s^2)/(1 + s).
 #[inline]
 fn loss(w: DVec3) -> f64 {
     let (mu, si) = (w.z, w.x.hypot(w.y));
-    let g = si * (si.atan2(mu) - si * mu)
-        + 2.0 / 3.0 * (si * mu * (1.0 + si + si * si) / (1.0 + si) - si);
-    (C1 - FRAC_1_PI * g).max(0.0)
+    let linear =
+        si * mu.atan2(si) + si * si * mu - 2.0 / 3.0 * si * mu * (1.0 + si + si * si) / (1.0 + si);
+    (C1 * mu * mu / (1.0 + si) + FRAC_1_PI * linear).max(0.0)
 }
 
 impl<const N: usize> Brdf<N> for Eon<N> {
@@ -62,9 +63,15 @@ impl<const N: usize> Brdf<N> for Eon<N> {
         }
         let r = self.roughness;
         let s = wi.x * wo.x + wi.y * wo.y;
-        let s_over_t = if s > 0.0 { s / wi.z.max(wo.z) } else { s };
+        let shape = if s > 0.0 {
+            1.0 + r * s / wi.z.max(wo.z)
+        } else {
+            // 1 + s of unit vectors = (|h_xy|^2 + ci^2 + co^2)/2, which vanishes for opposite grazing directions
+            let h = wi + wo;
+            (1.0 - r) + 0.5 * r * (h.x * h.x + h.y * h.y + wi.z * wi.z + wo.z * wo.z)
+        };
         let a = 1.0 / (1.0 + C1 * r);
-        let single = FRAC_1_PI * a * (1.0 + r * s_over_t);
+        let single = FRAC_1_PI * a * shape;
         // (1 - E_i)(1 - E_o)/(1 - <E>) with A r taken out of each: nothing cancels as r -> 0
         let multiple = FRAC_1_PI * a * r * loss(wi) * loss(wo) / (C1 - C2);
         let mean = a * (1.0 + C2 * r);

@@ -40,40 +40,63 @@ impl<const N: usize> Fresnel<N> {
     }
 
     /// Reflectance per channel at the cosine `c` of the angle of incidence, [0, 1].
+    ///
+    /// Near the critical angle of total reflection (n < 1, k = 0) the slope is infinite: take [`Self::eval_at`] there.
     #[inline]
     #[must_use]
     pub fn eval(&self, c: f64) -> [f64; N] {
-        std::array::from_fn(|i| unpolarised(self.n[i], self.k[i], c))
+        self.eval_at(c, (1.0 - c) * (1.0 + c))
     }
 
-    /// [`Self::eval`] of one channel for a packet of cosines.
+    /// [`Self::eval`] with the squared sine of the angle, too, for who knows it better than 1 - c^2 does.
+    #[inline]
+    #[must_use]
+    pub fn eval_at(&self, c: f64, sin2: f64) -> [f64; N] {
+        std::array::from_fn(|i| unpolarised(self.n[i], self.k[i], [c, sin2]))
+    }
+
+    /// [`Self::eval_at`] of one channel for a packet of cosines and squared sines.
     #[inline(always)]
-    pub(crate) fn eval_lanes(&self, channel: usize, c: &[f32; LANES]) -> [f32; LANES] {
+    pub(crate) fn eval_lanes(
+        &self,
+        channel: usize,
+        c: &[f32; LANES],
+        sin2: &[f32; LANES],
+    ) -> [f32; LANES] {
         let (n, k) = (self.n[channel], self.k[channel]);
         if n.is_infinite() {
             return [1.0; LANES];
         }
-        let (e_re, e_im) = ((n * n - k * k) as f32, (n * k) as f32);
+        let (e, square, im) = (excess(n, k) as f32, (n * n - k * k) as f32, (n * k) as f32);
         let mut out = [0.0; LANES];
         for lane in 0..LANES {
-            out[lane] = unpolarised_f32(e_re, e_im, c[lane]);
+            out[lane] = unpolarised_f32(e, square, im, [c[lane], sin2[lane]]);
         }
         out
     }
 }
 
+/// Re (n + ik)^2 - 1, with the digits of indices close to 1.
+#[inline]
+fn excess(n: f64, k: f64) -> f64 {
+    (n - 1.0) * (n + 1.0) - k * k
+}
+
 /// (Rs + Rp) / 2 of n + ik at cosine c.
 ///
 /// With a + ib = sqrt((n + ik)^2 - sin^2): Rs = |a + ib - c|^2 / |a + ib + c|^2 and Rp = Rs times the same
-/// with c -> sin^2 / cos; written so that nothing cancels for k = 0, large k, or grazing angles.
+/// with c -> sin^2 / cos; written so that nothing cancels for k = 0, large k, n close to 1, or grazing angles: with
+/// e = Re (n + ik)^2 - 1 the real part of the root's square is e + c^2 or (e + 1) - sin^2, whichever subtracts less, and
+/// a - c = (e + b^2)/(a + c).
 #[inline]
-fn unpolarised(n: f64, k: f64, c: f64) -> f64 {
+fn unpolarised(n: f64, k: f64, [c, s2]: [f64; 2]) -> f64 {
     if n.is_infinite() {
         return 1.0;
     }
     let c2 = c * c;
-    let s2 = (1.0 - c2).max(0.0);
-    let (re, im) = (n * n - k * k - s2, n * k);
+    let e = excess(n, k);
+    let re = if c2 < s2 { e + c2 } else { n * n - k * k - s2 };
+    let im = n * k;
     // indices are far from the squares that would overflow: no hypot needed
     let r = (re * re + 4.0 * im * im).sqrt();
     // a^2 and b^2 = (r +- re)/2: take the sum that does not cancel, the other by a b = n k
@@ -85,29 +108,34 @@ fn unpolarised(n: f64, k: f64, c: f64) -> f64 {
         (small, big)
     };
     let a = a2.sqrt();
-    let (minus, plus) = (a - c, a + c);
+    let plus = a + c;
+    // neither index nor cosine: no boundary, or one that light runs along
+    if plus <= 0.0 && b2 <= 0.0 {
+        return if e.abs() > 0.0 { 1.0 } else { 0.0 };
+    }
+    let minus = if re >= 0.0 { (e + b2) / plus } else { a - c };
     let rs = (minus * minus + b2) / (plus * plus + b2);
     let (minus, plus) = (a * c - s2, a * c + s2);
     let rp = (minus * minus + b2 * c2) / (plus * plus + b2 * c2);
     0.5 * rs * (1.0 + if rp.is_nan() { 1.0 } else { rp })
 }
 
-/// [`unpolarised`] in f32; `e_re` = n^2 - k^2, `e_im` = n k.
+/// [`unpolarised`] in f32; `e` is the [`excess`], `square` = n^2 - k^2, `im` = n k.
 #[inline(always)]
-fn unpolarised_f32(e_re: f32, e_im: f32, c: f32) -> f32 {
+fn unpolarised_f32(e: f32, square: f32, im: f32, [c, s2]: [f32; 2]) -> f32 {
     let c2 = c * c;
-    let s2 = (1.0 - c2).max(0.0);
-    let re = e_re - s2;
-    let r = (re * re + 4.0 * e_im * e_im).sqrt();
+    let re = if c2 < s2 { e + c2 } else { square - s2 };
+    let r = (re * re + 4.0 * im * im).sqrt();
     let big = 0.5 * (r + re.abs()) + f32::MIN_POSITIVE;
-    let small = e_im * e_im / big;
+    let small = im * im / big;
     let (a2, b2) = if re >= 0.0 {
         (big, small)
     } else {
         (small, big)
     };
     let a = a2.sqrt();
-    let (minus, plus) = (a - c, a + c);
+    let plus = a + c;
+    let minus = if re >= 0.0 { (e + b2) / plus } else { a - c };
     // one division for Rs (1 + Rp/Rs)
     let (s_num, s_den) = (minus * minus + b2, plus * plus + b2);
     let (minus, plus) = (a * c - s2, a * c + s2);
@@ -216,8 +244,9 @@ mod tests {
         for metal in METALS {
             let f = Fresnel::from_index(metal.n, metal.k);
             let c: [f32; LANES] = std::array::from_fn(|k| k as f32 / (LANES - 1) as f32);
+            let sin2 = c.map(|c| (1.0 - c) * (1.0 + c));
             for channel in 0..3 {
-                let lanes = f.eval_lanes(channel, &c);
+                let lanes = f.eval_lanes(channel, &c, &sin2);
                 for k in 0..LANES {
                     let exact = f.eval(f64::from(c[k]))[channel];
                     // a dozen f32 operations on numbers of order |n + ik|^2

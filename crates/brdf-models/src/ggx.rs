@@ -104,7 +104,7 @@ impl<const N: usize> Brdf<N> for Ggx<N> {
         };
         let lambda = self.stretched(wi) * wo.z + self.stretched(wo) * wi.z;
         let lobe = 0.5 * self.ndf(&half) / lambda;
-        let f = self.fresnel.eval(half.cos_d());
+        let f = self.fresnel.eval_at(half.cos_d(), half.sin2_d());
         std::array::from_fn(|c| self.diffuse[c] * FRAC_1_PI + self.specular[c] * f[c] * lobe)
     }
 
@@ -118,13 +118,16 @@ impl<const N: usize> Brdf<N> for Ggx<N> {
     #[inline(always)]
     fn eval_lanes(&self, wi: &Lanes3, wo: &Lanes3) -> [[f32; LANES]; N] {
         let kernel = self.kernel();
-        let (mut lobe, mut cos_d, mut diffuse) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        let (mut lobe, mut diffuse) = ([0.0; LANES], [0.0; LANES]);
+        let (mut cos_d, mut sin2_d) = ([0.0; LANES], [0.0; LANES]);
         for k in 0..LANES {
             let d = kernel.ndf(wi, wo, k);
             let lambda = kernel.stretched(wi, k) * wo.z[k] + kernel.stretched(wo, k) * wi.z[k];
             let above = wi.z[k].min(wo.z[k]) > 0.0;
             lobe[k] = if above { 0.5 * d.value / lambda } else { 0.0 };
             cos_d[k] = (0.5 * d.len2.sqrt()).min(1.0);
+            let (x, y, z) = (wi.x[k] - wo.x[k], wi.y[k] - wo.y[k], wi.z[k] - wo.z[k]);
+            sin2_d[k] = (0.25 * (x * x + y * y + z * z)).min(1.0);
             diffuse[k] = if above {
                 std::f32::consts::FRAC_1_PI
             } else {
@@ -132,7 +135,7 @@ impl<const N: usize> Brdf<N> for Ggx<N> {
             };
         }
         std::array::from_fn(|c| {
-            let mut f = self.fresnel.eval_lanes(c, &cos_d);
+            let mut f = self.fresnel.eval_lanes(c, &cos_d, &sin2_d);
             let (kd, ks) = (self.diffuse[c] as f32, self.specular[c] as f32);
             for k in 0..LANES {
                 f[k] = kd * diffuse[k] + ks * f[k] * lobe[k];
@@ -256,9 +259,10 @@ impl<const N: usize> Ggx<N> {
             return [1.0; LANES];
         }
         let cos = wo.z.map(|z| z.clamp(0.0, 1.0));
+        let sin2 = cos.map(|c| (1.0 - c) * (1.0 + c));
         let mut specular = [0.0_f32; LANES];
         for c in 0..N {
-            let f = self.fresnel.eval_lanes(c, &cos);
+            let f = self.fresnel.eval_lanes(c, &cos, &sin2);
             let ks = self.specular[c] as f32;
             for k in 0..LANES {
                 specular[k] += ks * f[k];

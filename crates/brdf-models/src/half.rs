@@ -19,6 +19,8 @@ pub(crate) struct Half {
     pub(crate) h: DVec3,
     /// |H|^2 = 2 (1 + wi.wo).
     pub(crate) len2: f64,
+    /// |wi - wo|^2 = 2 (1 - wi.wo).
+    apart2: f64,
 }
 
 impl Half {
@@ -30,6 +32,7 @@ impl Half {
             Self {
                 h,
                 len2: h.length_squared(),
+                apart2: (wi - wo).length_squared(),
             }
         })
     }
@@ -51,6 +54,12 @@ impl Half {
     #[inline]
     pub(crate) fn cos_d(&self) -> f64 {
         (0.5 * self.len2.sqrt()).min(1.0)
+    }
+
+    /// Squared sine of that angle, |wi - wo|^2 / 4: 1 - cos^2 has no digits left near the pole.
+    #[inline]
+    pub(crate) fn sin2_d(&self) -> f64 {
+        (0.25 * self.apart2).min(1.0)
     }
 }
 

@@ -22,15 +22,21 @@ pub(crate) fn cosine_pdf(wi: DVec3) -> f64 {
     wi.z.max(0.0) * FRAC_1_PI
 }
 
-/// c^n for c = the cosine between two unit vectors, from their difference where they are close, so that
-/// n = 1e6 keeps its digits: c = 1 - |a - b|^2 / 2 and c^n = exp(n ln(1 - ...)).
+/// c^n for c = the cosine between two unit vectors. Where they are close it comes from their difference, so that
+/// n = 1e6 keeps its digits: c = 1 - |a - b|^2 / 2 and c^n = exp(n ln(1 - ...)); where they are nearly at right angles
+/// that would cancel, and the product keeps them.
 #[inline]
 pub(crate) fn cos_power(a: DVec3, b: DVec3, n: f64) -> f64 {
     let c = a.dot(b);
     if c <= 0.0 {
         return 0.0;
     }
-    (n * (-0.5 * (a - b).length_squared()).max(-ONE_MINUS).ln_1p()).exp()
+    let ln = if c > 0.5 {
+        (-0.5 * (a - b).length_squared()).ln_1p()
+    } else {
+        c.ln()
+    };
+    (n * ln).exp()
 }
 
 /// Direction about the unit vector `axis`, with density (n+1)/(2 pi) cos^n on the sphere around it.

@@ -61,11 +61,14 @@ impl<const N: usize> OrenNayar<N> {
         let (si, so) = (wi.x.hypot(wi.y), wo.x.hypot(wo.y));
         // seen from the pole every azimuth is the same
         let product = si * so;
-        let cos_phi = if product > 0.0 {
-            ((wi.x * wo.x + wi.y * wo.y) / product).clamp(-1.0, 1.0)
+        let (cos_phi, sin_phi) = if product > 0.0 {
+            let cos = (wi.x * wo.x + wi.y * wo.y) / product;
+            (cos.clamp(-1.0, 1.0), (wi.x * wo.y - wi.y * wo.x) / product)
         } else {
-            0.0
+            (0.0, 1.0)
         };
+        // 1 - |cos p|, which the tangent at grazing angles multiplies by 1e7
+        let across = sin_phi * sin_phi / (1.0 + cos_phi.abs());
         let (ti, to) = (si.atan2(wi.z), so.atan2(wo.z));
         let (a, b) = (ti.max(to), ti.min(to));
         // tan b = sin b / cos b with b the smaller angle; tan((a + b)/2) without any angle
@@ -74,14 +77,18 @@ impl<const N: usize> OrenNayar<N> {
         let two_b = FRAC_2_PI * b;
         let c1 = 1.0 - 0.5 * s2 / (s2 + 0.33);
         let k = s2 / (s2 + 0.09);
-        let back = if cos_phi < 0.0 {
-            two_b * two_b * two_b
+        let sin_a = si.max(so);
+        let rise = if cos_phi < 0.0 {
+            // sin a - (2b/pi)^3 vanishes for opposite grazing directions: from 1 - 2b/pi and 1 - sin a
+            let rest = FRAC_2_PI * wi.z.max(wo.z).atan2(si.min(so));
+            let cos_a = wi.z.min(wo.z);
+            rest * (1.0 + two_b + two_b * two_b) - cos_a * cos_a / (1.0 + sin_a)
         } else {
-            0.0
+            sin_a
         };
-        let c2 = 0.45 * k * (si.max(so) - back);
+        let c2 = 0.45 * k * rise;
         let c3 = 0.125 * k * (FRAC_2_PI * FRAC_2_PI * a * b).powi(2);
-        let direct = c1 + cos_phi * c2 * tan_b + (1.0 - cos_phi.abs()) * c3 * tan_mean;
+        let direct = c1 + cos_phi * c2 * tan_b + across * c3 * tan_mean;
         let twice = 0.17 * s2 / (s2 + 0.13) * (1.0 - cos_phi * two_b * two_b);
         (direct, twice)
     }

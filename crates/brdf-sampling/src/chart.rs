@@ -90,7 +90,7 @@ impl Chart {
         ChartPoint {
             wi,
             ab,
-            jacobian: jacobian.max(f64::MIN_POSITIVE),
+            jacobian: jacobian.max(MIN_JACOBIAN),
         }
     }
 
@@ -138,7 +138,7 @@ impl Chart {
         ChartPoint {
             wi: h - DVec3::new(self.sin_o, 0.0, self.cos_o),
             ab,
-            jacobian: jacobian.max(f64::MIN_POSITIVE),
+            jacobian: jacobian.max(MIN_JACOBIAN),
         }
     }
 
@@ -153,6 +153,9 @@ impl Chart {
         (0.5 * (d - n + rounding) / d.max(f64::MIN_POSITIVE)).clamp(MIN_HALF, 1.0)
     }
 }
+
+/// Floor of the Jacobian, which vanishes with theta_h: at the pole itself the density is large, not infinite.
+const MIN_JACOBIAN: f64 = 1e-30;
 
 /// Lower bound of sin^2(phi_max / 2), reached only at the rim a = 1.
 const MIN_HALF: f64 = 1e-18;

@@ -98,6 +98,9 @@ pub trait DirectionSampler: Send + Sync {
     }
 
     /// [`Self::sample`] for [`LANES`] viewers at once, in f32.
+    ///
+    /// The density is that of the direction as rounded to f32: in a narrow lobe the two differ, and reflectance over
+    /// density stays bounded only if both are asked about the same direction.
     #[inline(always)]
     fn sample_lanes(&self, wo: &Lanes3, u: &[[f32; LANES]; 2]) -> SampleLanes {
         let mut out = SampleLanes {
@@ -106,9 +109,11 @@ pub trait DirectionSampler: Send + Sync {
         };
         for k in 0..LANES {
             let u = DVec2::new(f64::from(u[0][k]), f64::from(u[1][k]));
-            if let Some(s) = self.sample(wo.get(k).as_dvec3(), u) {
-                out.wi.set(k, s.wi.as_vec3());
-                out.pdf[k] = s.pdf as f32;
+            let viewer = wo.get(k).as_dvec3();
+            if let Some(s) = self.sample(viewer, u) {
+                let wi = s.wi.as_vec3();
+                out.wi.set(k, wi);
+                out.pdf[k] = self.pdf(wi.as_dvec3(), viewer) as f32;
             }
         }
         out

@@ -19,7 +19,7 @@ use std::time::Instant;
 /// virtual call free.
 const BLOCKS: usize = 16;
 
-/// A path this weak ends: its products would be denormal.
+/// A path this weak ends: its products would be denormal. What a shadow ray carries is light, of any strength.
 const FAINT: f32 = 1e-30;
 
 /// Shortens shadow rays by a relative hair, so that what touches a light's back does not hide it.
@@ -355,7 +355,7 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
                 }
             }
             let d = vertex.worlds(&s.wi);
-            let mut keep = lasts(&throughput);
+            let mut keep = lasts(&throughput, FAINT);
             for k in 0..LANES {
                 keep[k] &= u32::from(s.pdf[k] > 0.0);
             }
@@ -431,7 +431,7 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
                 carried[c][k] = f_cos * light.radiance[c][k] * weight[k];
             }
         }
-        let mut keep = lasts(&carried);
+        let mut keep = lasts(&carried, f32::MIN_POSITIVE);
         for k in 0..LANES {
             keep[k] &= u32::from((light.pdf[k] > 0.0) & (eval.wi.z[k] > 0.0));
         }
@@ -492,16 +492,16 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
     }
 }
 
-/// 1 in each lane in which anything is left to carry: not zero, not infinite, not NaN.
+/// 1 in each lane in which more than `least` is left to carry: not infinite, not NaN.
 #[inline(always)]
-fn lasts<const N: usize>(values: &[F; N]) -> U {
+fn lasts<const N: usize>(values: &[F; N], least: f32) -> U {
     let mut sum = [0.0; LANES];
     for channel in values {
         for k in 0..LANES {
             sum[k] += channel[k].abs();
         }
     }
-    std::array::from_fn(|k| u32::from((sum[k] > FAINT) & (sum[k] < f32::INFINITY)))
+    std::array::from_fn(|k| u32::from((sum[k] > least) & (sum[k] < f32::INFINITY)))
 }
 
 /// A slice of [`LANES`] values as an array.

@@ -81,7 +81,7 @@ pub(crate) fn forward(v: &Views, r0: f32, points: &mut Points) -> Lanes3 {
         wi.y[k] = x * v.sin_phi[k] + side * v.cos_phi[k];
         wi.z[k] = (2.0 * wo_h * c - v.cos_o[k]).max(TINY);
         let jacobian = 32.0 * wo_h * r * root * v.span[k] * t_max / (y_slope * cos_quarter);
-        points.jacobian[k] = jacobian.max(f32::MIN_POSITIVE);
+        points.jacobian[k] = jacobian.max(MIN_JACOBIAN);
     }
     wi
 }
@@ -118,10 +118,13 @@ pub(crate) fn inverse(v: &Views, r0: f32, wi: &Lanes3) -> Points {
         p.a[k] = (l / v.span[k]).min(1.0);
         p.b[k] = 0.5 + 0.5 * ratio.copysign(hy);
         let jacobian = 16.0 * len * r * root * v.span[k] * reach / y_slope;
-        p.jacobian[k] = jacobian.max(f32::MIN_POSITIVE);
+        p.jacobian[k] = jacobian.max(MIN_JACOBIAN);
     }
     p
 }
+
+/// As [`crate::chart`]'s, so that what is divided by it stays finite in f32.
+const MIN_JACOBIAN: f32 = 1e-20;
 
 #[inline(always)]
 fn half_max(sin_o: f32, cos_o: f32, s: f32, c: f32) -> f32 {
