@@ -8,31 +8,49 @@
 #![expect(clippy::print_stdout, reason = "a program")]
 #![expect(clippy::disallowed_methods, reason = "reads the files it is told")]
 
-use brdf::{DirectionSampler, Measured, direction};
+use brdf::{Brdf, DirectionSampler, Measured, Status, Symmetry};
 use brdf_formats::File;
+use brdf_models::parse_model;
 use brdf_sampling::{
-    ColourTarget, Cosine, Dictionary, Hvt, HvtOptions, Inversion, InversionOptions, Preset, Target,
-    relative_variance,
+    ColourTarget, Cosine, Dictionary, Hvt, HvtOptions, Inversion, InversionOptions, Preset,
+    SHOWN_DEG, SamplerCost, SamplerReport, Target, sampler_cost, sampler_report,
 };
 use brdf_table::scattered::{DEFAULT_DIMS, Domain};
 use brdf_table::{
     CellPolicy, Gridded, HalfDiffTable, Interpolation, RglTable, SampleCloud, ThinPlate, resample,
 };
-use glam::{DVec2, DVec3};
+use glam::DVec3;
+use spectrum::{Basis, RgbSpace};
 use std::error::Error;
-use std::hint::black_box;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
-const SHOWN_DEG: [f64; 7] = [0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 85.0];
 const SAMPLES: usize = 20_000;
 
-/// 24 viewers between 1 and 86 degrees, on no grid.
-fn off_grid(k: usize) -> f64 {
-    1.37 + 3.61 * k as f64
+/// The native channels of a model.
+struct Model(Arc<dyn Brdf<3>>);
+
+impl Measured for Model {
+    fn basis(&self) -> &Basis {
+        static BASIS: OnceLock<Basis> = OnceLock::new();
+        BASIS.get_or_init(|| Basis::Rgb(RgbSpace::srgb()))
+    }
+
+    fn eval_native(&self, wi: DVec3, wo: DVec3, out: &mut [f64]) -> Status {
+        out.copy_from_slice(&self.0.eval(wi, wo));
+        Status::Measured
+    }
+
+    fn symmetry(&self) -> Symmetry {
+        self.0.symmetry()
+    }
 }
 
+/// A file, or a model if the text has a colon and no such file is there.
 fn load(path: &str) -> Result<Arc<dyn Measured>, Box<dyn Error>> {
+    if path.contains(':') && !std::path::Path::new(path).exists() {
+        return Ok(Arc::new(Model(parse_model(path)?.built.brdf)));
+    }
     let linear = |table: HalfDiffTable| Gridded {
         table: Arc::new(table),
         interpolation: Interpolation::Linear,
@@ -99,78 +117,6 @@ fn options(name: &str) -> Option<HvtOptions> {
     Some(o)
 }
 
-struct Row {
-    bytes: usize,
-    shown: Vec<f64>,
-    mean: f64,
-    worst: f64,
-    max_weight: f64,
-    wasted: f64,
-    albedo: f64,
-    build_ms: f64,
-    sample_ns: f64,
-    pdf_ns: f64,
-}
-
-fn measure(target: Target<'_>, build: &dyn Fn() -> Box<dyn DirectionSampler>) -> Row {
-    let start = Instant::now();
-    let sampler = build();
-    let build_ms = start.elapsed().as_secs_f64() * 1e3;
-    let at = |deg: f64| relative_variance(target, &*sampler, deg, SAMPLES);
-    let shown = SHOWN_DEG.iter().map(|&d| at(d).value).collect();
-    let all: Vec<_> = (0..24).map(|k| at(off_grid(k))).collect();
-    let (sample_ns, pdf_ns) = cost(&*sampler);
-    Row {
-        bytes: sampler.bytes(),
-        shown,
-        mean: all.iter().map(|v| v.value).sum::<f64>() / 24.0,
-        worst: all.iter().fold(0.0, |m, v| v.value.max(m)),
-        max_weight: all.iter().fold(0.0, |m, v| v.max_weight.max(m)),
-        wasted: all.iter().fold(0.0, |m, v| v.wasted.max(m)),
-        albedo: all.iter().map(|v| v.albedo).sum::<f64>() / 24.0,
-        build_ms,
-        sample_ns,
-        pdf_ns,
-    }
-}
-
-/// Nanoseconds of sample and pdf.
-fn cost(sampler: &dyn DirectionSampler) -> (f64, f64) {
-    let mut rng = sampling::Rng::new(5);
-    let inputs: Vec<(DVec3, DVec2)> = (0..4_000)
-        .map(|_| {
-            (
-                direction(1.5 * rng.uniform(), 6.0 * rng.uniform()),
-                rng.uniform2(),
-            )
-        })
-        .collect();
-    let best = |f: &dyn Fn()| {
-        let mut best = f64::INFINITY;
-        for _ in 0..40 {
-            let start = Instant::now();
-            f();
-            best = best.min(start.elapsed().as_secs_f64() * 1e9 / inputs.len() as f64);
-        }
-        best
-    };
-    let sample_ns = best(&|| {
-        for (wo, u) in &inputs {
-            black_box(sampler.sample(*wo, *u));
-        }
-    });
-    let wi: Vec<DVec3> = inputs
-        .iter()
-        .filter_map(|(wo, u)| sampler.sample(*wo, *u).map(|s| s.wi))
-        .collect();
-    let pdf_ns = best(&|| {
-        for ((wo, _), wi) in inputs.iter().zip(&wi) {
-            black_box(sampler.pdf(*wi, *wo));
-        }
-    });
-    (sample_ns, pdf_ns)
-}
-
 fn main() -> Result<(), Box<dyn Error>> {
     let mut names = vec!["default".to_string()];
     let (mut files, mut colour) = (Vec::new(), false);
@@ -181,7 +127,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             None => files.push(arg),
         }
     }
-    let (sample_ns, pdf_ns) = cost(&Cosine);
+    let SamplerCost { sample_ns, pdf_ns } = sampler_cost(&Cosine, 40);
     println!("for comparison, cosine: {sample_ns:.1} ns sample, {pdf_ns:.1} ns pdf");
     let mut tables = Vec::new();
     for path in &files {
@@ -190,7 +136,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for name in &names {
         let method = Method::parse(name)
             .ok_or("methods: a preset, AxBxC, cosine, inversion, ggx, dictionary")?;
-        let mut means = Vec::new();
+        let (mut means, mut heaviest) = (Vec::new(), 0.0_f64);
         println!(
             "## {name}\nmaterial | bytes | build ms | ns sample | ns pdf | {SHOWN_DEG:?} | {SUMMARY}"
         );
@@ -208,35 +154,46 @@ fn main() -> Result<(), Box<dyn Error>> {
                 Some(star) => star.eval(wi, wo),
                 None => luminance(wi, wo),
             };
-            let target = Target::new(&f);
-            let row = measure(target, &|| method.build(target));
-            print_row(stem, &row);
-            means.push(row.mean);
+            let target = Target {
+                f: &f,
+                symmetry: table.symmetry(),
+            };
+            let start = Instant::now();
+            let sampler = method.build(target);
+            let build_ms = start.elapsed().as_secs_f64() * 1e3;
+            let report = sampler_report(target, &*sampler, SAMPLES);
+            print_row(stem, build_ms, sampler_cost(&*sampler, 40), &report);
+            means.push(report.mean);
+            heaviest = heaviest.max(report.max_weight);
         }
         means.sort_by(f64::total_cmp);
         if let (Some(median), Some(worst)) = (means.get(means.len() / 2), means.last()) {
-            println!("median {median:.5}  worst {worst:.5}");
+            println!("median {median:.5}  worst {worst:.5}  largest weight {heaviest:.2}");
         }
     }
     Ok(())
 }
 
 /// What follows the angles in a row.
-const SUMMARY: &str = "mean | worst angle | max w | wasted | albedo";
+const SUMMARY: &str = "mean | error | worst angle | max w | wasted | albedo";
 
-fn print_row(stem: &str, row: &Row) {
-    let shown: Vec<String> = row.shown.iter().map(|v| format!("{v:.5}")).collect();
+fn print_row(stem: &str, build_ms: f64, cost: SamplerCost, report: &SamplerReport) {
+    let shown: Vec<String> = report
+        .shown
+        .iter()
+        .map(|(_, v)| format!("{:.5}", v.value))
+        .collect();
     println!(
-        "{stem:30} | {} | {:.0} | {:.0} | {:.0} | {} | {:.5} | {:.5} | {:.2} | {:.4} | {:.4}",
-        row.bytes,
-        row.build_ms,
-        row.sample_ns,
-        row.pdf_ns,
+        "{stem:30} | {} | {build_ms:.0} | {:.0} | {:.0} | {} | {:.5} | {:.5} | {:.5} | {:.2} | {:.4} | {:.4}",
+        report.bytes,
+        cost.sample_ns,
+        cost.pdf_ns,
         shown.join(" "),
-        row.mean,
-        row.worst,
-        row.max_weight,
-        row.wasted,
-        row.albedo
+        report.mean,
+        report.std_error,
+        report.worst,
+        report.max_weight,
+        report.wasted,
+        report.albedo
     );
 }

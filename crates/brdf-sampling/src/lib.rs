@@ -8,7 +8,7 @@
 //! - [`Inversion`]: large tables, plain.
 //! - [`Hvt`]: small tables of least variance, the default choice; [`ColourTarget`] serves several channels.
 //! - [`Dictionary`]: GGX lobes and a cosine, 0.8 KB or a single lobe.
-//! - [`relative_variance`]: how noisy any of them is.
+//! - [`sampler_report`], [`sampler_cost`], [`relative_variance`]: how noisy and how fast any of them is.
 //!
 //! Not here: lights, multiple importance sampling, files.
 
@@ -23,6 +23,7 @@ mod lane_math;
 mod pseudo_log;
 mod rejection;
 mod rejection_cache;
+mod report;
 mod slice_measure;
 mod target;
 mod uniform;
@@ -35,6 +36,9 @@ pub use hvt::{Hvt, HvtOptions, MAX_B, Preset};
 pub use inversion::{Inversion, InversionOptions};
 pub use rejection::{BoundAudit, Rejection, RejectionOptions, SharedTarget};
 pub use rejection_cache::{CacheError, Proposal, RejectionCache};
+pub use report::{
+    OFF_GRID, SHOWN_DEG, SamplerCost, SamplerReport, off_grid_deg, sampler_cost, sampler_report,
+};
 pub use target::Target;
 pub use uniform::Uniform;
-pub use variance::{RelativeVariance, relative_variance};
+pub use variance::{RelativeVariance, relative_variance, relative_variance_for};

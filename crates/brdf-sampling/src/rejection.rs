@@ -141,20 +141,6 @@ impl Rejection {
         &self.cache
     }
 
-    /// Expected proposals a sample for this viewer: blend of maximum / integral, at most the limit.
-    #[must_use]
-    pub fn expected_tries(&self, wo: DVec3) -> f64 {
-        let tries = |k: usize| {
-            let accept = self.acceptance(k);
-            if accept > 0.0 {
-                (1.0 - (1.0 - accept).powf(f64::from(self.max_tries))) / accept
-            } else {
-                0.0
-            }
-        };
-        self.grid.blend(wo).iter().map(|&(k, t)| t * tries(k)).sum()
-    }
-
     /// Looks at `n` proposals of every slice for values above the bound: the honest report on a bound that was
     /// found by search. Deterministic.
     #[must_use]
@@ -260,6 +246,19 @@ impl DirectionSampler for Rejection {
 
     fn keeps_stratification(&self) -> bool {
         false
+    }
+
+    /// Blend of maximum / integral over the slices, at most the limit.
+    fn tries_per_sample(&self, wo: DVec3) -> f64 {
+        let tries = |k: usize| {
+            let accept = self.acceptance(k);
+            if accept > 0.0 {
+                (1.0 - (1.0 - accept).powf(f64::from(self.max_tries))) / accept
+            } else {
+                0.0
+            }
+        };
+        self.grid.blend(wo).iter().map(|&(k, t)| t * tries(k)).sum()
     }
 
     fn bytes(&self) -> usize {

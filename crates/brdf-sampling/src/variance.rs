@@ -2,6 +2,7 @@
 
 use crate::target::Target;
 use brdf::{DirectionSampler, direction};
+use glam::DVec3;
 use sampling::Rng;
 
 /// What [`relative_variance`] measures; w = f cos / pdf.
@@ -28,7 +29,18 @@ pub fn relative_variance(
     n: usize,
 ) -> RelativeVariance {
     let wo = direction(theta_deg.to_radians(), 0.0);
-    let mut rng = Rng::new(theta_deg.to_bits());
+    relative_variance_for(target, sampler, wo, n)
+}
+
+/// Draws `n` independent samples for the viewer `wo`; the seed is a function of `wo`.
+#[must_use]
+pub fn relative_variance_for(
+    target: Target<'_>,
+    sampler: &dyn DirectionSampler,
+    wo: DVec3,
+    n: usize,
+) -> RelativeVariance {
+    let mut rng = Rng::new(wo.x.to_bits() ^ wo.y.to_bits().rotate_left(1));
     let (mut weights, mut wasted) = (Vec::with_capacity(n), 0);
     for _ in 0..n {
         let weight = match sampler.sample(wo, rng.uniform2()) {

@@ -86,6 +86,12 @@ pub trait DirectionSampler: Send + Sync {
         true
     }
 
+    /// Expected proposals a sample costs at this viewer: 1 but for rejection.
+    fn tries_per_sample(&self, wo: DVec3) -> f64 {
+        let _ = wo;
+        1.0
+    }
+
     /// Bytes of tables the sampler holds.
     fn bytes(&self) -> usize {
         0
@@ -137,6 +143,9 @@ impl<T: DirectionSampler + ?Sized> DirectionSampler for std::sync::Arc<T> {
     }
     fn keeps_stratification(&self) -> bool {
         (**self).keeps_stratification()
+    }
+    fn tries_per_sample(&self, wo: DVec3) -> f64 {
+        (**self).tries_per_sample(wo)
     }
     fn bytes(&self) -> usize {
         (**self).bytes()

@@ -1,6 +1,7 @@
 //! Rays asked of a scene without rendering it: for other integrators, and to measure ray casting alone.
 
 use crate::math::splat3;
+use crate::mode::Mode;
 use crate::path::{HitLanes, NONE, RayLanes};
 use crate::scene::Scene;
 use brdf::LANES;
@@ -26,7 +27,7 @@ pub struct RayHit {
     pub object: u32,
 }
 
-impl<const N: usize> Scene<N> {
+impl<const N: usize, S: Mode<N>> Scene<N, S> {
     /// What each ray meets first before its `t_max`, into `hits`; as many as the shorter of the two.
     pub fn nearest(&self, rays: &[Ray], hits: &mut [Option<RayHit>]) {
         pulp::Arch::new().dispatch(Nearest {
@@ -38,17 +39,17 @@ impl<const N: usize> Scene<N> {
 }
 
 /// A stream of rays to be compiled for each instruction set and run with the widest there is.
-struct Nearest<'a, const N: usize> {
-    scene: &'a Scene<N>,
+struct Nearest<'a, const N: usize, S: Mode<N>> {
+    scene: &'a Scene<N, S>,
     rays: &'a [Ray],
     hits: &'a mut [Option<RayHit>],
 }
 
-impl<const N: usize> pulp::WithSimd for Nearest<'_, N> {
+impl<const N: usize, S: Mode<N>> pulp::WithSimd for Nearest<'_, N, S> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) {
+    fn with_simd<I: pulp::Simd>(self, _: I) {
         let geometry = &self.scene.geometry;
         let (mut lanes, mut met) = (RayLanes::EMPTY, HitLanes::EMPTY);
         for (rays, hits) in self.rays.chunks(LANES).zip(self.hits.chunks_mut(LANES)) {
