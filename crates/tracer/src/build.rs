@@ -317,7 +317,11 @@ impl<const N: usize, S: Mode<N>> Builder<N, S> {
         let (bvh, order) = Bvh::new(&triangles);
         self.geometry.bvh = Some(bvh);
         self.geometry.triangles = (order.iter())
-            .map(|&i| loose.get(i as usize).map_or(TriangleInfo::SPARE, |l| l.info))
+            .map(|&i| {
+                loose
+                    .get(i as usize)
+                    .map_or(TriangleInfo::SPARE, |l| l.info)
+            })
             .collect();
         let base = self.geometry.first_triangle();
         for shining in std::mem::take(&mut self.shining) {

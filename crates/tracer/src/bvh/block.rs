@@ -42,9 +42,7 @@ impl Block {
     #[inline]
     pub(super) fn triangle(&self, k: usize) -> Triangle {
         Triangle {
-            corners: self
-                .corners
-                .map(|c| Vec3::new(c[0][k], c[1][k], c[2][k])),
+            corners: self.corners.map(|c| Vec3::new(c[0][k], c[1][k], c[2][k])),
         }
     }
 

@@ -57,7 +57,10 @@ impl Lanes8 {
                 far[k] = if b < far[k] { b } else { far[k] };
             }
         }
-        (near, mask(std::array::from_fn(|k| near[k] <= far[k] * WIDER)))
+        (
+            near,
+            mask(std::array::from_fn(|k| near[k] <= far[k] * WIDER)),
+        )
     }
 
     /// A bit for each number below `limit`.

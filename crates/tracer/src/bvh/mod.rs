@@ -230,7 +230,10 @@ mod tests {
         let (bvh, order) = Bvh::new(triangles);
         let mut taken: Vec<_> = order.iter().filter(|&&i| i != NONE).collect();
         taken.sort_unstable();
-        assert!(taken.iter().copied().copied().eq(0..triangles.len() as u32), "each once");
+        assert!(
+            taken.iter().copied().copied().eq(0..triangles.len() as u32),
+            "each once"
+        );
         let mut next = numbers(seed);
         let mut point = || Vec3::new(next(), next(), next());
         let mut differ = 0;
@@ -252,7 +255,11 @@ mod tests {
             for k in 0..LANES {
                 let expected = brute_force(triangles, rays.o.get(k), rays.d.get(k));
                 let found = (hits.prim[k] != NONE).then(|| order[hits.prim[k] as usize] as usize);
-                assert_eq!(blocked[k] != 0, found.is_some(), "a shadow ray sees what others see");
+                assert_eq!(
+                    blocked[k] != 0,
+                    found.is_some(),
+                    "a shadow ray sees what others see"
+                );
                 let same = match (expected, found) {
                     (Some((t, _)), Some(_)) => (t - f64::from(hits.t[k])).abs() < 1e-4 * t.max(0.1),
                     (None, None) => true,

@@ -41,8 +41,14 @@ impl Node {
 
     /// Low and high corner of the box around all children.
     pub(super) fn bounds(&self) -> [Vec3; 2] {
-        let low = self.planes.each_ref().map(|[low, _]| low.iter().copied().fold(f32::INFINITY, f32::min));
-        let high = self.planes.each_ref().map(|[_, high]| high.iter().copied().fold(f32::NEG_INFINITY, f32::max));
+        let low = self
+            .planes
+            .each_ref()
+            .map(|[low, _]| low.iter().copied().fold(f32::INFINITY, f32::min));
+        let high = self
+            .planes
+            .each_ref()
+            .map(|[_, high]| high.iter().copied().fold(f32::NEG_INFINITY, f32::max));
         [low.into(), high.into()]
     }
 }
@@ -146,7 +152,9 @@ impl<'a> Opener<'a> {
         let mut open = vec![root];
         while open.len() < ARITY {
             let largest = (0..open.len())
-                .filter(|&i| nodes[open[i]].prim_count == 0 && self.counts[open[i]] as usize > SPLIT)
+                .filter(|&i| {
+                    nodes[open[i]].prim_count == 0 && self.counts[open[i]] as usize > SPLIT
+                })
                 .max_by(|&a, &b| {
                     let area = |i: usize| nodes[open[i]].aabb.half_area();
                     area(a).total_cmp(&area(b))
@@ -192,11 +200,16 @@ impl<'a> Opener<'a> {
         let mut found = Vec::new();
         let mut todo = vec![root];
         while let Some(i) = todo.pop() {
-            let (node, first) = (&self.binary.nodes[i], self.binary.nodes[i].first_index as usize);
+            let (node, first) = (
+                &self.binary.nodes[i],
+                self.binary.nodes[i].first_index as usize,
+            );
             if node.prim_count == 0 {
                 todo.extend([first, first + 1]);
             } else {
-                found.extend(&self.binary.primitive_indices[first..first + node.prim_count as usize]);
+                found.extend(
+                    &self.binary.primitive_indices[first..first + node.prim_count as usize],
+                );
             }
         }
         found
