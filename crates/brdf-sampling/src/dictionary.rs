@@ -56,7 +56,7 @@ impl Dictionary {
         for _ in 0..UPDATES {
             let mut gain = vec![0.0; mixture.weights.len()];
             points.for_each(|wi, wo, cost| {
-                let (k, t) = slice_blend(wo.z, SLICES);
+                let (k, t) = slice_blend(wo, SLICES);
                 let p = mixture.pdf(wi, wo);
                 for c in 0..lobes {
                     let g = cost * mixture.lobe_pdf(c, wi, wo) / (p * p);
@@ -116,7 +116,7 @@ impl DirectionSampler for Dictionary {
         if wo.z <= 0.0 {
             return None;
         }
-        let place = slice_blend(wo.z, SLICES);
+        let place = slice_blend(wo, SLICES);
         let (mut x, mut c, mut w) = (u.x, 0, self.weight(0, place));
         while x >= w && c < self.alphas.len() {
             x -= w;
@@ -136,7 +136,7 @@ impl DirectionSampler for Dictionary {
         if wi.z <= 0.0 || wo.z <= 0.0 {
             return 0.0;
         }
-        let place = slice_blend(wo.z, SLICES);
+        let place = slice_blend(wo, SLICES);
         (0..=self.alphas.len())
             .map(|c| self.weight(c, place) * self.lobe_pdf(c, wi, wo))
             .sum()
