@@ -35,6 +35,9 @@ pub(crate) use validation::Validation;
 /// Radial scales tried, radians.
 const SCALES: [f64; 9] = [0.0007, 0.002, 0.005, 0.012, 0.03, 0.07, 0.16, 0.4, 1.0];
 
+/// Half the step between them, as a factor.
+const HALFWAY: f64 = 1.57;
+
 /// A direction sampler of least variance. Isotropic targets have slices of the viewer's elevation, others of its
 /// azimuth as well.
 #[derive(Clone, Debug)]
@@ -111,20 +114,6 @@ impl Hvt {
         self.r0
     }
 
-    /// f(wi, wo) as the table has it, in 1/sr, for a directional albedo `albedo` at this viewer: albedo * pdf / cos.
-    ///
-    /// An approximation, not the target: evaluated this way every sample has the weight `albedo`, so luminance is
-    /// free of noise, at a systematic error whose relative square is the relative variance of the exact mode. It
-    /// is not reciprocal. 0 below the horizon.
-    #[must_use]
-    pub fn baked(&self, wi: DVec3, wo: DVec3, albedo: f64) -> f64 {
-        if wi.z > 0.0 {
-            albedo * self.pdf(wi, wo) / wi.z
-        } else {
-            0.0
-        }
-    }
-
     fn lane_scale2(&self) -> [f32; 2] {
         self.scale2.map(|x| x as f32)
     }
@@ -190,19 +179,27 @@ fn best_scale(target: &Target<'_>, shape: Shape) -> f64 {
         gradients: 0,
     };
     let validation = Validation::new(target);
-    let costs: Vec<f64> = SCALES
-        .par_iter()
-        .map(|&r0| {
-            let problem = Problem::new(target, coarse, r0, 1);
-            if problem.is_empty() {
-                return f64::INFINITY;
-            }
-            let (x, _) = optimise(&problem, effort);
-            validation.variance(&Hvt::of(Table::new(coarse, x), r0, 0.0))
-        })
-        .collect();
-    let best = (0..SCALES.len()).min_by(|&a, &b| costs[a].total_cmp(&costs[b]));
-    best.map_or(0.1, |k| SCALES[k])
+    let cost = |r0: f64| {
+        let problem = Problem::new(target, coarse, r0, 1);
+        if problem.is_empty() {
+            return f64::INFINITY;
+        }
+        let (x, _) = optimise(&problem, effort);
+        validation.variance(&Hvt::of(Table::new(coarse, x), r0, 0.0))
+    };
+    let best = |scales: &[f64]| {
+        let costs: Vec<f64> = scales.par_iter().map(|&r0| cost(r0)).collect();
+        let k = (0..scales.len()).min_by(|&a, &b| costs[a].total_cmp(&costs[b]));
+        k.map_or((f64::INFINITY, 0.1), |k| (costs[k], scales[k]))
+    };
+    let first = best(&SCALES);
+    // then halfway to the neighbours
+    let second = best(&[first.1 * HALFWAY, first.1 / HALFWAY]);
+    if second.0 < first.0 {
+        second.1
+    } else {
+        first.1
+    }
 }
 
 impl DirectionSampler for Hvt {

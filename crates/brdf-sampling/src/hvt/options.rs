@@ -9,10 +9,10 @@ use crate::target::Turning;
 pub enum Preset {
     /// 6 x 12 x 8 nodes, 1 KB.
     Tiny,
-    /// 12 x 36 x 16 nodes, 9 KB.
+    /// 12 x 40 x 16 nodes, 9.7 KB.
     #[default]
     Default,
-    /// 24 x 64 x 24 nodes, 43 KB.
+    /// 24 x 72 x 24 nodes, 49 KB.
     Fine,
     /// 32 x 96 x 32 nodes, 111 KB.
     Reference,
@@ -47,8 +47,8 @@ impl Preset {
     pub fn options(self) -> HvtOptions {
         let (n_theta, n_phi, n_a, n_b) = match self {
             Self::Tiny => (6, 6, 12, 8),
-            Self::Default => (12, 12, 36, 16),
-            Self::Fine => (24, 16, 64, 24),
+            Self::Default => (12, 12, 40, 16),
+            Self::Fine => (24, 16, 72, 24),
             Self::Reference => (32, 24, 96, 32),
         };
         HvtOptions {

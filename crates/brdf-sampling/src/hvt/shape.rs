@@ -68,7 +68,7 @@ impl Shape {
     #[inline(always)]
     pub(crate) fn blend<const S: usize>(self, min_cos_h: f64, wo: DVec3) -> Blend<S> {
         let x = slices::tau(min_cos_h) * (self.n_theta - 1) as f32;
-        let k = (x as i32).clamp(0, self.n_theta as i32 - 2);
+        let k = (x as u32).min(self.n_theta as u32 - 2);
         let t = x - k as f32;
         let k = k as usize;
         let mut blend = Blend {

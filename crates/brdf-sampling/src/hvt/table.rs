@@ -229,7 +229,7 @@ fn lerp(l: f32, r: f32, x: f32) -> f32 {
 #[inline]
 fn split(x: f64, n: usize) -> (usize, f32) {
     let x = x * (n - 1) as f64;
-    let i = (x as i32).clamp(0, n as i32 - 2);
+    let i = (x as u32).min(n as u32 - 2);
     (i as usize, (x - f64::from(i)) as f32)
 }
 

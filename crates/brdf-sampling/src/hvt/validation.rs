@@ -16,7 +16,7 @@ const R0: f64 = 5e-4;
 /// Points along a and b.
 const POINTS: [usize; 2] = [160, 12];
 /// Viewers, degrees.
-const THETA_DEG: [f64; 5] = [4.0, 26.0, 47.0, 66.0, 81.0];
+const THETA_DEG: [f64; 6] = [4.0, 26.0, 47.0, 66.0, 79.0, 86.0];
 
 /// The golden section: its multiples fill an interval evenly.
 const GOLDEN: f64 = 0.618_033_988_75;
