@@ -38,7 +38,7 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
             ..Parameter::same("ny", "exponent along y", "n")
         },
         Parameter::albedo("ks", "reflectance of the lobe at normal incidence", 0.05),
-        Parameter::albedo("kd", "reflectance of the base", 0.5),
+        Parameter::base("kd", "reflectance of the base", 0.5),
     ],
     laws: Laws {
         sampler_complete: false,

@@ -26,8 +26,8 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
     citation: "Blinn1977",
     parameters: &[
         Parameter::exponent("n", "exponent of the cosine", 100.0),
-        Parameter::albedo("ks", "albedo of the lobe at normal incidence", 0.5),
-        Parameter::albedo("kd", "albedo of the Lambert lobe", 0.3),
+        Parameter::weight("ks", "albedo of the lobe at normal incidence", 0.5),
+        Parameter::base("kd", "albedo of the Lambert lobe", 0.3),
     ],
     laws: Laws {
         sampler_complete: false,

@@ -35,8 +35,8 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
         microfacet::F0,
         microfacet::N,
         microfacet::K,
-        Parameter::albedo("ks", "weight of the lobe", 1.0),
-        Parameter::albedo("kd", "albedo of the Lambert lobe", 0.0),
+        Parameter::weight("ks", "weight of the lobe", 1.0),
+        Parameter::base("kd", "albedo of the Lambert lobe", 0.0),
     ],
     laws: Laws {
         sampler_complete: false,

@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_1_PI, TAU};
 
 use crate::half::{MIN_COS, above};
 use crate::lobe::{ONE_MINUS, cosine, cosine_pdf, power_lobe, power_lobe_pdf};
-use crate::registry::{Built, Laws, ModelInfo, Parameter, Values};
+use crate::registry::{Built, Laws, ModelInfo, Parameter, Values, numbered};
 
 /// One lobe: weight (n+2)/(2 pi) (cx ix ox + cy iy oy + cz iz oz)_+^n.
 ///
@@ -33,26 +33,29 @@ pub struct Lafortune<const N: usize> {
 
 pub(crate) const INFO: ModelInfo = ModelInfo {
     name: "lafortune",
-    title: "generalised cosine lobes, up to three by name, any number in code",
+    title: "generalised cosine lobes, any number",
     formula: "kd/pi + sum_j ks_j (n_j+2)/(2 pi) (cx_j ix ox + cy_j iy oy + cz_j iz oz)_+^n_j",
     citation: "Lafortune1997",
     parameters: &[
-        Parameter::albedo("ks", "weight of lobe 1", 0.5),
-        Parameter::exponent("n", "exponent of lobe 1", 50.0),
-        Parameter::scalar("cx", "coefficient of ix ox, lobe 1", (-1.0, 1.0), -1.0),
-        follow("cy", "coefficient of iy oy, lobe 1", "cx"),
-        Parameter::scalar("cz", "coefficient of iz oz, lobe 1", (-1.0, 1.0), 1.0),
-        Parameter::albedo("ks2", "weight of lobe 2", 0.0),
-        Parameter::exponent("n2", "exponent of lobe 2", 10.0),
-        Parameter::scalar("cx2", "coefficient of ix ox, lobe 2", (-1.0, 1.0), -1.0),
-        follow("cy2", "coefficient of iy oy, lobe 2", "cx2"),
-        Parameter::scalar("cz2", "coefficient of iz oz, lobe 2", (-1.0, 1.0), 1.0),
-        Parameter::albedo("ks3", "weight of lobe 3", 0.0),
-        Parameter::exponent("n3", "exponent of lobe 3", 10.0),
-        Parameter::scalar("cx3", "coefficient of ix ox, lobe 3", (-1.0, 1.0), -1.0),
-        follow("cy3", "coefficient of iy oy, lobe 3", "cx3"),
-        Parameter::scalar("cz3", "coefficient of iz oz, lobe 3", (-1.0, 1.0), 1.0),
-        Parameter::albedo("kd", "albedo of the Lambert lobe", 0.3),
+        of_a_lobe(Parameter::weight("ks", "weight of the lobe", 0.5)),
+        of_a_lobe(Parameter::exponent("n", "exponent of the lobe", 50.0)),
+        of_a_lobe(Parameter::scalar(
+            "cx",
+            "coefficient of ix ox",
+            (-1.0, 1.0),
+            -1.0,
+        )),
+        of_a_lobe(Parameter {
+            range: (-1.0, 1.0),
+            ..Parameter::same("cy", "coefficient of iy oy", "cx")
+        }),
+        of_a_lobe(Parameter::scalar(
+            "cz",
+            "coefficient of iz oz",
+            (-1.0, 1.0),
+            1.0,
+        )),
+        Parameter::base("kd", "albedo of the Lambert lobe", 0.3),
     ],
     laws: Laws {
         sampler_complete: false,
@@ -62,31 +65,30 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
         "ks=0.4,n=30,kd=0.5/0.3/0.1",
         "ks=0.3/0.2/0.1,n=40,cx=-0.9,cz=0.8,ks2=0.2,n2=8,cx2=0.7,cz2=0.9,ks3=0.2,n3=2,kd=0.2",
         "ks=1,n=20,cx=-0.95,cy=-0.7,cz=1,kd=0",
+        "ks=0.2,n=5,ks2=0.2,n2=20,ks3=0.2,n3=80,ks4=0.2,n4=320,ks5=0.1,n5=1,cx5=1,kd=0.1",
     ],
 };
 
-const fn follow(name: &'static str, title: &'static str, other: &'static str) -> Parameter {
+const fn of_a_lobe(parameter: Parameter) -> Parameter {
     Parameter {
-        range: (-1.0, 1.0),
-        ..Parameter::same(name, title, other)
+        repeats: true,
+        ..parameter
     }
 }
 
 pub(crate) fn build<const N: usize>(values: &Values) -> Built<N> {
-    let lobe = |[ks, n, cx, cy, cz]: [&str; 5]| LafortuneLobe {
-        weight: values.channels(ks),
-        axes: DVec3::new(values.scalar(cx), values.scalar(cy), values.scalar(cz)),
-        exponent: values.scalar(n),
+    let lobe = |lobe: usize| {
+        let of = |name: &str| values.scalar(&numbered(name, lobe));
+        LafortuneLobe {
+            weight: values.channels(&numbered("ks", lobe)),
+            axes: DVec3::new(of("cx"), of("cy"), of("cz")),
+            exponent: of("n"),
+        }
     };
-    let lobes = [
-        ["ks", "n", "cx", "cy", "cz"],
-        ["ks2", "n2", "cx2", "cy2", "cz2"],
-        ["ks3", "n3", "cx3", "cy3", "cz3"],
-    ];
     Built::new(Lafortune {
-        lobes: lobes
+        lobes: (1..)
+            .take_while(|k| values.is_given(&numbered("ks", *k)))
             .map(lobe)
-            .into_iter()
             .filter(|l| l.energy() > 0.0)
             .collect(),
         diffuse: values.channels("kd"),

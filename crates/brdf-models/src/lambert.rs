@@ -20,7 +20,7 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
     title: "the same radiance in every direction",
     formula: "kd/pi",
     citation: "Lambert1760",
-    parameters: &[Parameter::albedo("kd", "diffuse albedo", 0.5)],
+    parameters: &[Parameter::base("kd", "diffuse albedo", 0.5)],
     laws: Laws::KEPT,
     examples: &["", "kd=1", "kd=0.2/0.1/0.05"],
 };

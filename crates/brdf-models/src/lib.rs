@@ -34,7 +34,7 @@ pub use lambert::Lambert;
 pub use oren_nayar::OrenNayar;
 pub use phong::{Phong, PhongForm};
 pub use registry::{
-    Built, DefaultValue, Laws, MODELS, ModelError, ModelInfo, Parameter, ParsedModel, Values,
-    parse_model, parse_model_n,
+    Built, DefaultValue, Laws, Lobe, MODELS, ModelError, ModelInfo, Parameter, ParsedModel, Role,
+    Values, build_model, parse_model, parse_model_n,
 };
 pub use ward::{Ward, WardForm};

@@ -34,8 +34,8 @@ pub struct Phong<const N: usize> {
 
 const PARAMETERS: &[Parameter] = &[
     Parameter::exponent("n", "exponent of the cosine", 50.0),
-    Parameter::albedo("ks", "weight of the lobe", 0.5),
-    Parameter::albedo("kd", "albedo of the Lambert lobe", 0.3),
+    Parameter::weight("ks", "weight of the lobe", 0.5),
+    Parameter::base("kd", "albedo of the Lambert lobe", 0.3),
 ];
 
 const EXAMPLES: &[&str] = &[

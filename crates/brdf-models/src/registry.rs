@@ -1,14 +1,17 @@
 //! The list of models: names, parameters, the laws each keeps, and how `name:key=value,...` becomes one.
 
+mod assemble;
 mod built;
 mod error;
 pub(crate) mod microfacet;
 mod parameter;
 mod parse;
 
-pub use built::{Built, ParsedModel};
+pub use assemble::build_model;
+pub(crate) use assemble::numbered;
+pub use built::{Built, Lobe, ParsedModel};
 pub use error::ModelError;
-pub use parameter::{DefaultValue, Parameter, Values};
+pub use parameter::{DefaultValue, Parameter, Role, Values};
 pub use parse::{parse_model, parse_model_n};
 
 /// What is promised of a model for every parameter in range, and checked by the conformance tests.
@@ -50,6 +53,25 @@ pub struct ModelInfo {
     pub laws: Laws,
     /// Parameter texts that exercise it: tests, benches and documentation run over them.
     pub examples: &'static [&'static str],
+}
+
+impl ModelInfo {
+    /// The entry of a parameter, also of one of a further lobe (`ks2`).
+    #[must_use]
+    pub fn parameter(&self, name: &str) -> Option<&'static Parameter> {
+        let exact = self.parameters.iter().find(|p| p.name == name);
+        exact.or_else(|| {
+            let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
+            let mut repeated = self.parameters.iter().filter(|p| p.repeats);
+            repeated.find(|p| p.name == stem)
+        })
+    }
+
+    /// How f depends on the parameter called `name`; a shape if there is none.
+    #[must_use]
+    pub fn role(&self, name: &str) -> Role {
+        self.parameter(name).map_or(Role::Shape, |p| p.role)
+    }
 }
 
 /// Lists the models once: the registry and its constructor come from the same lines.

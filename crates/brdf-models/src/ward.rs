@@ -42,8 +42,8 @@ const PARAMETERS: &[Parameter] = &[
     Parameter::roughness("alpha", "roughness", 0.15),
     Parameter::same("alpha_x", "roughness along x", "alpha"),
     Parameter::same("alpha_y", "roughness along y", "alpha"),
-    Parameter::albedo("ks", "weight of the lobe", 0.5),
-    Parameter::albedo("kd", "albedo of the Lambert lobe", 0.3),
+    Parameter::weight("ks", "weight of the lobe", 0.5),
+    Parameter::base("kd", "albedo of the Lambert lobe", 0.3),
 ];
 
 const EXAMPLES: &[&str] = &[

@@ -3,6 +3,7 @@
 //! - [`Brdf`]: what the surface does. [`DirectionSampler`]: how a direction is chosen for it.
 //!   [`Paired`]: one of each, as the [`Material`] a renderer holds.
 //! - [`Measured`]: reflectance in the channels of its file; [`Projected`] turns it into a [`Brdf`].
+//! - [`TaggedBrdf`]: the same where lanes differ in what they carry, as in hero wavelength sampling.
 //! - [`HalfDiff`]: Rusinkiewicz' angles.
 //!
 //! Only reflection is implemented. Transmission would bring the eta^2 factor of non-symmetric
@@ -15,9 +16,11 @@ mod half_diff;
 mod lanes;
 mod material;
 mod measured;
+mod tag;
 
 pub use contract::{Brdf, DirectionSample, DirectionSampler, SampleLanes, Symmetry};
 pub use half_diff::{HalfDiff, direction};
 pub use lanes::{LANES, Lanes3};
 pub use material::{EvalPacket, Material, Paired, SamplePacket};
 pub use measured::{Measured, Projected, Status};
+pub use tag::{HERO, ROTATIONS, RotatedTable, Rotation, Tag, TaggedBrdf};

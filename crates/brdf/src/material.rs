@@ -3,13 +3,16 @@
 //! Renderers hold `Box<dyn Material<N>>` and hand it whole streams of packets, so that one virtual call
 //! serves hundreds of paths and everything below it is compiled for the concrete pair.
 
-use crate::contract::{Brdf, DirectionSampler};
+use crate::contract::DirectionSampler;
 use crate::lanes::{LANES, Lanes3};
+use crate::tag::{Tag, TaggedBrdf};
 use pulp::{Arch, Simd, WithSimd};
 
 /// [`LANES`] evaluations: directions in, f cos and pdf out.
 #[derive(Clone, Debug)]
-pub struct EvalPacket<const N: usize> {
+pub struct EvalPacket<const N: usize, T: Tag = ()> {
+    /// What the channels of each lane are.
+    pub tag: [T; LANES],
     /// Toward the viewer.
     pub wo: Lanes3,
     /// Toward the light.
@@ -22,7 +25,9 @@ pub struct EvalPacket<const N: usize> {
 
 /// [`LANES`] samplings: viewer and random numbers in, direction, density and weight out.
 #[derive(Clone, Debug)]
-pub struct SamplePacket<const N: usize> {
+pub struct SamplePacket<const N: usize, T: Tag = ()> {
+    /// What the channels of each lane are.
+    pub tag: [T; LANES],
     /// Toward the viewer.
     pub wo: Lanes3,
     /// Two numbers in [0, 1) a lane.
@@ -35,9 +40,10 @@ pub struct SamplePacket<const N: usize> {
     pub weight: [[f32; LANES]; N],
 }
 
-impl<const N: usize> EvalPacket<N> {
+impl<const N: usize, T: Tag> EvalPacket<N, T> {
     /// A packet of zeros.
     pub const ZERO: Self = Self {
+        tag: [T::FIRST; LANES],
         wo: Lanes3::ZERO,
         wi: Lanes3::ZERO,
         f_cos: [[0.0; LANES]; N],
@@ -45,9 +51,10 @@ impl<const N: usize> EvalPacket<N> {
     };
 }
 
-impl<const N: usize> SamplePacket<N> {
+impl<const N: usize, T: Tag> SamplePacket<N, T> {
     /// A packet of zeros.
     pub const ZERO: Self = Self {
+        tag: [T::FIRST; LANES],
         wo: Lanes3::ZERO,
         u: [[0.0; LANES]; 2],
         wi: Lanes3::ZERO,
@@ -57,14 +64,18 @@ impl<const N: usize> SamplePacket<N> {
 }
 
 /// What a renderer sees of a surface.
-pub trait Material<const N: usize>: Send + Sync {
+///
+/// Directions are chosen without regard to the channels: where paths carry several wavelengths, all share one density,
+/// the balance heuristic over them gives each the same weight, and nothing is left to be weighed. A sampler that
+/// follows one wavelength would need it.
+pub trait Material<const N: usize, T: Tag = ()>: Send + Sync {
     /// Fills `f_cos` and `pdf` of every packet.
-    fn eval(&self, packets: &mut [EvalPacket<N>]);
+    fn eval(&self, packets: &mut [EvalPacket<N, T>]);
     /// Fills `wi`, `pdf` and `weight` of every packet.
-    fn sample(&self, packets: &mut [SamplePacket<N>]);
+    fn sample(&self, packets: &mut [SamplePacket<N, T>]);
 }
 
-/// The usual material: a [`Brdf`] and the [`DirectionSampler`] chosen for it.
+/// The usual material: a [`Brdf`](crate::Brdf) (or [`TaggedBrdf`]) and the [`DirectionSampler`] chosen for it.
 #[derive(Clone, Copy, Debug)]
 pub struct Paired<B, S> {
     /// What the surface does.
@@ -73,12 +84,14 @@ pub struct Paired<B, S> {
     pub sampler: S,
 }
 
-impl<const N: usize, B: Brdf<N>, S: DirectionSampler> Material<N> for Paired<B, S> {
-    fn eval(&self, packets: &mut [EvalPacket<N>]) {
+impl<const N: usize, T: Tag, B: TaggedBrdf<N, T>, S: DirectionSampler> Material<N, T>
+    for Paired<B, S>
+{
+    fn eval(&self, packets: &mut [EvalPacket<N, T>]) {
         Arch::new().dispatch(Eval(self, packets));
     }
 
-    fn sample(&self, packets: &mut [SamplePacket<N>]) {
+    fn sample(&self, packets: &mut [SamplePacket<N, T>]) {
         Arch::new().dispatch(Sample(self, packets));
     }
 }
@@ -87,16 +100,18 @@ impl<const N: usize, B: Brdf<N>, S: DirectionSampler> Material<N> for Paired<B, 
 ///
 /// What a reflectance and a sampler declare `#[inline(always)]` is compiled with them; the rest still works. Results
 /// are the same bits, since no step is fused.
-struct Eval<'a, B, S, const N: usize>(&'a Paired<B, S>, &'a mut [EvalPacket<N>]);
+struct Eval<'a, B, S, T: Tag, const N: usize>(&'a Paired<B, S>, &'a mut [EvalPacket<N, T>]);
 
-impl<const N: usize, B: Brdf<N>, S: DirectionSampler> WithSimd for Eval<'_, B, S, N> {
+impl<const N: usize, T: Tag, B: TaggedBrdf<N, T>, S: DirectionSampler> WithSimd
+    for Eval<'_, B, S, T, N>
+{
     type Output = ();
 
     #[inline(always)]
     fn with_simd<I: Simd>(self, _: I) {
         let Self(pair, packets) = self;
         for p in packets {
-            p.f_cos = pair.brdf.eval_lanes(&p.wi, &p.wo);
+            p.f_cos = pair.brdf.eval_tagged(&p.wi, &p.wo, &p.tag);
             for c in 0..N {
                 for k in 0..LANES {
                     p.f_cos[c][k] *= p.wi.z[k].max(0.0);
@@ -108,9 +123,11 @@ impl<const N: usize, B: Brdf<N>, S: DirectionSampler> WithSimd for Eval<'_, B, S
 }
 
 /// Samplings, like [`Eval`].
-struct Sample<'a, B, S, const N: usize>(&'a Paired<B, S>, &'a mut [SamplePacket<N>]);
+struct Sample<'a, B, S, T: Tag, const N: usize>(&'a Paired<B, S>, &'a mut [SamplePacket<N, T>]);
 
-impl<const N: usize, B: Brdf<N>, S: DirectionSampler> WithSimd for Sample<'_, B, S, N> {
+impl<const N: usize, T: Tag, B: TaggedBrdf<N, T>, S: DirectionSampler> WithSimd
+    for Sample<'_, B, S, T, N>
+{
     type Output = ();
 
     #[inline(always)]
@@ -118,7 +135,7 @@ impl<const N: usize, B: Brdf<N>, S: DirectionSampler> WithSimd for Sample<'_, B,
         let Self(pair, packets) = self;
         for p in packets {
             let s = pair.sampler.sample_lanes(&p.wo, &p.u);
-            let f = pair.brdf.eval_lanes(&s.wi, &p.wo);
+            let f = pair.brdf.eval_tagged(&s.wi, &p.wo, &p.tag);
             for c in 0..N {
                 for k in 0..LANES {
                     let w = f[c][k] * s.wi.z[k].max(0.0) / s.pdf[k];

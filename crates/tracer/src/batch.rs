@@ -8,10 +8,11 @@ use crate::film::Tile;
 use crate::kernel::{Kernel, SHINES};
 use crate::light::LightLanes;
 use crate::math::{F, U, splat3};
+use crate::mode::{Develop, Mode};
 use crate::path::{HitLanes, NONE, PathState, Paths, Shadows};
 use crate::stats::Stats;
 use crate::vertex::VertexLanes;
-use brdf::{EvalPacket, LANES, SamplePacket};
+use brdf::{EvalPacket, LANES, SamplePacket, Tag};
 use std::time::Instant;
 
 /// Blocks of vertices a material is handed at once: few enough to stay in the first-level cache, enough to make the
@@ -34,25 +35,25 @@ pub(crate) struct Samples {
 /// A batch to be compiled for each instruction set and run with the widest there is.
 ///
 /// Everything down to the materials' virtual calls is inlined into it; results are the same bits, since no step is fused.
-pub(crate) struct Batch<'a, 'k, const N: usize> {
-    pub(crate) workspace: &'a mut Workspace<N>,
-    pub(crate) kernel: &'a Kernel<'k, N>,
-    pub(crate) tile: &'a mut Tile<N>,
+pub(crate) struct Batch<'a, 'k, const N: usize, const M: usize, S: Mode<N>> {
+    pub(crate) workspace: &'a mut Workspace<N, S>,
+    pub(crate) kernel: &'a Kernel<'k, N, S>,
+    pub(crate) tile: &'a mut Tile<M>,
     pub(crate) samples: Samples,
 }
 
-impl<const N: usize> pulp::WithSimd for Batch<'_, '_, N> {
+impl<const N: usize, const M: usize, S: Develop<N, M>> pulp::WithSimd for Batch<'_, '_, N, M, S> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) {
+    fn with_simd<I: pulp::Simd>(self, _: I) {
         self.workspace.run(self.kernel, self.tile, self.samples);
     }
 }
 
 /// Buffers of one worker, reused for all its batches.
 #[derive(Debug)]
-pub(crate) struct Workspace<const N: usize> {
+pub(crate) struct Workspace<const N: usize, S: Mode<N>> {
     paths: Paths<N>,
     next: Paths<N>,
     hits: Vec<HitLanes>,
@@ -65,10 +66,12 @@ pub(crate) struct Workspace<const N: usize> {
     met: Vec<u32>,
     vertices: Vec<VertexLanes<N>>,
     lights: Vec<LightLanes<N>>,
-    evals: Vec<EvalPacket<N>>,
-    samples: Vec<SamplePacket<N>>,
+    evals: Vec<EvalPacket<N, S::Tag>>,
+    samples: Vec<SamplePacket<N, S::Tag>>,
     /// Light collected in each slot.
     slots: Vec<[f32; N]>,
+    /// What the channels of each slot are.
+    tag: Vec<S::Tag>,
     /// Points of each slot: stream, and index in the stream.
     stream: Vec<u32>,
     index: Vec<u32>,
@@ -77,7 +80,7 @@ pub(crate) struct Workspace<const N: usize> {
     pub(crate) stats: Stats,
 }
 
-impl<const N: usize> Workspace<N> {
+impl<const N: usize, S: Mode<N>> Workspace<N, S> {
     /// Room for `capacity` paths and `materials` materials.
     pub(crate) fn new(capacity: usize, materials: usize) -> Self {
         let capacity = capacity.next_multiple_of(LANES);
@@ -95,6 +98,7 @@ impl<const N: usize> Workspace<N> {
             evals: vec![EvalPacket::ZERO; BLOCKS],
             samples: vec![SamplePacket::ZERO; BLOCKS],
             slots: vec![[0.0; N]; capacity],
+            tag: vec![S::Tag::FIRST; capacity],
             stream: vec![0; capacity],
             index: vec![0; capacity],
             corner: [vec![0.0; capacity], vec![0.0; capacity]],
@@ -104,7 +108,14 @@ impl<const N: usize> Workspace<N> {
 
     /// Traces the samples of every pixel of `tile` and adds them to it.
     #[inline(always)]
-    fn run(&mut self, kernel: &Kernel<'_, N>, tile: &mut Tile<N>, samples: Samples) {
+    fn run<const M: usize>(
+        &mut self,
+        kernel: &Kernel<'_, N, S>,
+        tile: &mut Tile<M>,
+        samples: Samples,
+    ) where
+        S: Develop<N, M>,
+    {
         let mut clock = Instant::now();
         let mut lap = || {
             let now = Instant::now();
@@ -150,13 +161,18 @@ impl<const N: usize> Workspace<N> {
             self.trace_shadows(kernel);
             self.stats.stages.shadow += lap();
         }
-        self.finish(tile, samples);
+        self.finish(&kernel.scene.mode, tile, samples);
         self.stats.stages.film += lap();
     }
 
     /// Camera rays, slot by slot: all pixels of the first sample, then of the next.
     #[inline(always)]
-    fn start(&mut self, kernel: &Kernel<'_, N>, tile: &Tile<N>, samples: Samples) {
+    fn start<const M: usize>(
+        &mut self,
+        kernel: &Kernel<'_, N, S>,
+        tile: &Tile<M>,
+        samples: Samples,
+    ) {
         let replicates = kernel.replicates;
         let mut slot = 0;
         for sample in samples.first..samples.first + samples.count {
@@ -167,6 +183,7 @@ impl<const N: usize> Workspace<N> {
                     .wrapping_mul(replicates)
                     .wrapping_add(sample % replicates);
                 self.index[slot] = sample / replicates;
+                self.tag[slot] = kernel.tag(self.stream[slot], self.index[slot]);
                 slot += 1;
             }
         }
@@ -198,7 +215,7 @@ impl<const N: usize> Workspace<N> {
 
     /// Adds the light that rays met, and sorts the paths that go on by material (counting sort).
     #[inline(always)]
-    fn meet(&mut self, kernel: &Kernel<'_, N>, depth: u32) {
+    fn meet(&mut self, kernel: &Kernel<'_, N, S>, depth: u32) {
         let geometry = &kernel.scene.geometry;
         let end = kernel.scene.materials.len() as u32;
         let last = depth == kernel.max_depth;
@@ -240,7 +257,7 @@ impl<const N: usize> Workspace<N> {
 
     /// Adds the light that path `i` met.
     #[inline(always)]
-    fn meet_light(&mut self, kernel: &Kernel<'_, N>, depth: u32, i: usize) {
+    fn meet_light(&mut self, kernel: &Kernel<'_, N, S>, depth: u32, i: usize) {
         let scene = kernel.scene;
         let (rays, hits, k) = (
             &self.paths.rays[i / LANES],
@@ -264,8 +281,9 @@ impl<const N: usize> Workspace<N> {
         } else {
             1.0
         };
-        let radiance = light.radiance(d);
-        let slot = &mut self.slots[self.paths.slot[i] as usize];
+        let slot = self.paths.slot[i] as usize;
+        let radiance = light.radiance(d, self.tag[slot]);
+        let slot = &mut self.slots[slot];
         for c in 0..N {
             slot[c] += self.paths.throughput[i][c] * radiance[c] * weight;
         }
@@ -275,18 +293,20 @@ impl<const N: usize> Workspace<N> {
     #[inline(always)]
     fn prepare(
         &mut self,
-        kernel: &Kernel<'_, N>,
+        kernel: &Kernel<'_, N, S>,
         depth: u32,
         range: std::ops::Range<usize>,
     ) -> usize {
-        let dimension = Kernel::<N>::dimension;
+        let dimension = Kernel::<N, S>::dimension;
         let mut blocks = 0;
         for which in self.order[range].chunks(LANES) {
             let vertex = &mut self.vertices[blocks];
             vertex.gather(&kernel.scene.geometry, &self.paths, &self.hits, which);
             let stream = vertex.slot.map(|s| self.stream[s as usize]);
             let index = vertex.slot.map(|s| self.index[s as usize]);
+            let tag = vertex.slot.map(|s| self.tag[s as usize]);
             let sampling = &mut self.samples[blocks];
+            sampling.tag = tag;
             sampling.wo = vertex.wo;
             sampling.u = kernel.points.get2_lanes(stream, index, dimension(depth, 0));
             if kernel.ask_lights {
@@ -298,8 +318,10 @@ impl<const N: usize> Workspace<N> {
                     [0.0; LANES]
                 };
                 let light = &mut self.lights[blocks];
-                kernel.lights.sample(&vertex.o, &choice, &on_light, light);
+                let u = (&choice, &on_light);
+                kernel.lights.sample(&vertex.o, u, &tag, light);
                 let eval = &mut self.evals[blocks];
+                eval.tag = tag;
                 eval.wo = vertex.wo;
                 eval.wi = vertex.locals(&light.wi);
             }
@@ -309,7 +331,7 @@ impl<const N: usize> Workspace<N> {
     }
 
     /// The two virtual calls.
-    fn ask(&mut self, kernel: &Kernel<'_, N>, material: usize, blocks: usize) {
+    fn ask(&mut self, kernel: &Kernel<'_, N, S>, material: usize, blocks: usize) {
         let material = &kernel.scene.materials[material];
         if kernel.ask_lights {
             material.eval(&mut self.evals[..blocks]);
@@ -319,7 +341,7 @@ impl<const N: usize> Workspace<N> {
 
     /// Makes shadow rays and new rays of what the material said.
     #[inline(always)]
-    fn advance(&mut self, kernel: &Kernel<'_, N>, depth: u32, blocks: usize) {
+    fn advance(&mut self, kernel: &Kernel<'_, N, S>, depth: u32, blocks: usize) {
         for block in 0..blocks {
             if kernel.ask_lights {
                 self.advance_shadows(kernel, block);
@@ -361,7 +383,7 @@ impl<const N: usize> Workspace<N> {
     #[inline(never)]
     fn roulette(
         &self,
-        kernel: &Kernel<'_, N>,
+        kernel: &Kernel<'_, N, S>,
         depth: u32,
         block: usize,
         throughput: &mut [F; N],
@@ -386,7 +408,7 @@ impl<const N: usize> Workspace<N> {
 
     /// Shadow rays of one block, weighed by the balance heuristic.
     #[inline(always)]
-    fn advance_shadows(&mut self, kernel: &Kernel<'_, N>, block: usize) {
+    fn advance_shadows(&mut self, kernel: &Kernel<'_, N, S>, block: usize) {
         let (vertex, eval, light) = (
             &self.vertices[block],
             &self.evals[block],
@@ -431,7 +453,7 @@ impl<const N: usize> Workspace<N> {
 
     /// Adds what shadow rays carry where the way is free.
     #[inline(always)]
-    fn trace_shadows(&mut self, kernel: &Kernel<'_, N>) {
+    fn trace_shadows(&mut self, kernel: &Kernel<'_, N, S>) {
         self.shadows.seal();
         let shadows = &self.shadows;
         for block in 0..shadows.len.div_ceil(LANES) {
@@ -453,10 +475,15 @@ impl<const N: usize> Workspace<N> {
 
     /// Adds the slots to the tile, in their order.
     #[inline(always)]
-    fn finish(&self, tile: &mut Tile<N>, samples: Samples) {
+    fn finish<const M: usize>(&self, mode: &S, tile: &mut Tile<M>, samples: Samples)
+    where
+        S: Develop<N, M>,
+    {
         let pixels = tile.pixels().len();
         for (i, sample) in (samples.first..samples.first + samples.count).enumerate() {
-            tile.add(sample, &self.slots[i * pixels..(i + 1) * pixels]);
+            let slots = i * pixels..(i + 1) * pixels;
+            let light = self.tag[slots.clone()].iter().zip(&self.slots[slots]);
+            tile.add(sample, light.map(|(tag, light)| mode.develop(*tag, light)));
         }
         tile.done = samples.first + samples.count;
     }

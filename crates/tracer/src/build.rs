@@ -1,9 +1,9 @@
 //! From a description to a scene: shapes into world space, lights and their powers, the BVH.
 
-use crate::build_lights::mean;
 use crate::bvh::Bvh;
 use crate::geometry::{Geometry, TriangleInfo};
 use crate::light::{Emitter, Light, Lights, RectLight, SphereLight, TriangleLight};
+use crate::mode::{Emission, Mode};
 use crate::path::NONE;
 use crate::scene::{Description, Object, Scene, SceneError, Surface};
 use crate::shape::{Mesh, Quad, Shape, Sphere, Triangle};
@@ -23,8 +23,8 @@ struct Shining {
     light: usize,
 }
 
-pub(crate) struct Builder<const N: usize> {
-    pub(crate) description: Description<N>,
+pub(crate) struct Builder<const N: usize, S: Mode<N>> {
+    pub(crate) description: Description<N, S>,
     geometry: Geometry,
     quad_corners: Vec<[Vec3; 4]>,
     sphere_objects: Vec<u32>,
@@ -32,14 +32,14 @@ pub(crate) struct Builder<const N: usize> {
     surfaces: Vec<Surface>,
     loose: Vec<Loose>,
     shining: Vec<Shining>,
-    pub(crate) lights: Vec<Light<N>>,
+    pub(crate) lights: Vec<Light<S::Emission>>,
     /// What a light's share in the choice goes by; `None` keeps it out.
     pub(crate) powers: Vec<Option<f64>>,
     left_out: usize,
 }
 
-impl<const N: usize> Builder<N> {
-    pub(crate) fn new(description: Description<N>) -> Result<Self, SceneError> {
+impl<const N: usize, S: Mode<N>> Builder<N, S> {
+    pub(crate) fn new(description: Description<N, S>) -> Result<Self, SceneError> {
         description.camera.check().map_err(SceneError::Camera)?;
         Ok(Self {
             description,
@@ -56,7 +56,7 @@ impl<const N: usize> Builder<N> {
         })
     }
 
-    pub(crate) fn finish(mut self) -> Result<Scene<N>, SceneError> {
+    pub(crate) fn finish(mut self, mode: S) -> Result<Scene<N, S>, SceneError> {
         let objects = std::mem::take(&mut self.description.objects);
         for (index, object) in objects.iter().enumerate() {
             self.object(index, object)
@@ -76,12 +76,13 @@ impl<const N: usize> Builder<N> {
         let with_constant: Vec<_> = (self.powers.iter())
             .zip(&self.lights)
             .map(|(power, light)| match light.emitter {
-                Emitter::Constant => Some(self.environment_power(mean(&light.strength))),
+                Emitter::Constant => Some(self.environment_power(light.strength.brightness())),
                 _ => *power,
             })
             .collect();
         let all_lights = Lights::new(std::mem::take(&mut self.lights), &with_constant);
         Ok(Scene {
+            mode,
             camera: self.description.camera,
             materials: self.description.materials,
             smooth: !self.geometry.normals.is_empty(),
@@ -94,7 +95,7 @@ impl<const N: usize> Builder<N> {
         })
     }
 
-    fn object(&mut self, index: usize, object: &Object<N>) -> Result<(), String> {
+    fn object(&mut self, index: usize, object: &Object<N, S>) -> Result<(), String> {
         let materials = self.description.materials.len();
         if object.material >= materials {
             return Err(format!("material {} of {materials}", object.material));
@@ -102,8 +103,8 @@ impl<const N: usize> Builder<N> {
         if !object.transform.is_finite() {
             return Err("transform must be finite".into());
         }
-        let emission = object.emission.filter(|e| !e.is_zero());
-        if emission.is_some_and(|e| !e.0.iter().all(|x| x.is_finite())) {
+        let emission = shining(object);
+        if emission.is_some_and(|e| !e.is_finite()) {
             return Err("emission must be finite".into());
         }
         self.surfaces.push(Surface {
@@ -125,7 +126,7 @@ impl<const N: usize> Builder<N> {
     fn sphere(
         &mut self,
         index: usize,
-        object: &Object<N>,
+        object: &Object<N, S>,
         center: DVec3,
         radius: f64,
     ) -> Result<(), String> {
@@ -165,7 +166,7 @@ impl<const N: usize> Builder<N> {
     fn quad(
         &mut self,
         index: usize,
-        object: &Object<N>,
+        object: &Object<N, S>,
         [corner, u, v]: [DVec3; 3],
     ) -> Result<(), String> {
         let corner = object.transform.transform_point3(corner);
@@ -216,7 +217,7 @@ impl<const N: usize> Builder<N> {
         Ok(())
     }
 
-    fn mesh(&mut self, index: usize, object: &Object<N>, mesh: &Mesh) -> Result<(), String> {
+    fn mesh(&mut self, index: usize, object: &Object<N, S>, mesh: &Mesh) -> Result<(), String> {
         check_mesh(mesh)?;
         let positions: Vec<Vec3> = mesh
             .positions
@@ -257,7 +258,7 @@ impl<const N: usize> Builder<N> {
             }
             self.loose.push(Loose { triangle, info });
         }
-        if object.emission.is_some_and(|e| !e.is_zero()) && self.loose.len() > first {
+        if let Some(emission) = shining(object).filter(|_| self.loose.len() > first) {
             self.shining.push(Shining {
                 object: index,
                 light: self.lights.len(),
@@ -266,7 +267,7 @@ impl<const N: usize> Builder<N> {
             // filled in close_geometry, which knows the order of the leaves
             self.lights.push(Light {
                 emitter: Emitter::Constant,
-                strength: object.emission.map_or([0.0; N], |e| e.0),
+                strength: emission.clone(),
                 prim: NONE,
                 probability: 0.0,
             });
@@ -276,22 +277,28 @@ impl<const N: usize> Builder<N> {
     }
 
     /// Registers the emission of an analytic shape, if it has any.
-    fn shine(&mut self, index: usize, object: &Object<N>, area: f64, emitter: Emitter<N>) {
-        let Some(emission) = object.emission.filter(|e| !e.is_zero()) else {
+    fn shine(
+        &mut self,
+        index: usize,
+        object: &Object<N, S>,
+        area: f64,
+        emitter: Emitter<S::Emission>,
+    ) {
+        let Some(emission) = shining(object) else {
             return;
         };
         self.surfaces[index].light = self.lights.len() as u32;
-        self.powers.push(Some(area * PI * mean(&emission.0)));
+        self.powers.push(Some(area * PI * emission.brightness()));
         self.lights.push(Light {
             emitter,
-            strength: emission.0,
+            strength: emission.clone(),
             prim: NONE,
             probability: 0.0,
         });
     }
 
     /// Orders the primitives, builds the tree, tells lights which primitives they are.
-    fn close_geometry(&mut self, objects: &[Object<N>]) {
+    fn close_geometry(&mut self, objects: &[Object<N, S>]) {
         (self.geometry).close([&self.sphere_objects[..], &self.quad_objects[..]].concat());
         for (prim, &object) in self.geometry.objects.iter().enumerate() {
             let light = self.surfaces[object as usize].light;
@@ -317,7 +324,8 @@ impl<const N: usize> Builder<N> {
                 .map(|(&i, prim)| (loose[i as usize].triangle, prim))
                 .unzip();
             if let Some(light) = TriangleLight::new(members, prims) {
-                let emission = objects[shining.object].emission.map_or(0.0, |e| mean(&e.0));
+                let emission = objects[shining.object].emission.as_ref();
+                let emission = emission.map_or(0.0, Emission::brightness);
                 self.powers[shining.light] = Some(f64::from(light.area()) * PI * emission);
                 self.lights[shining.light].emitter = Emitter::Triangles(light);
             }
@@ -346,6 +354,11 @@ impl<const N: usize> Builder<N> {
             0.0
         }
     }
+}
+
+/// What an object sends out, if anything.
+fn shining<const N: usize, S: Mode<N>>(object: &Object<N, S>) -> Option<&S::Emission> {
+    object.emission.as_ref().filter(|e| !e.is_zero())
 }
 
 fn check_mesh(mesh: &Mesh) -> Result<(), String> {

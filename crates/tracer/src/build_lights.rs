@@ -2,12 +2,13 @@
 
 use crate::build::Builder;
 use crate::light::{Emitter, Environment, ImageLight, Light, PointLight};
+use crate::mode::{Emission, Mode};
 use crate::path::NONE;
 use crate::scene::SceneError;
 use glam::DVec3;
 use std::f64::consts::PI;
 
-impl<const N: usize> Builder<N> {
+impl<const N: usize, S: Mode<N>> Builder<N, S> {
     /// Adds the lights without extent.
     pub(crate) fn point_lights(&mut self) -> Result<(), SceneError> {
         for (index, light) in self.description.lights.iter().enumerate() {
@@ -15,7 +16,7 @@ impl<const N: usize> Builder<N> {
                 light: index,
                 reason,
             };
-            let (emitter, strength, power) = match *light {
+            let (emitter, strength, power) = match light {
                 PointLight::Point {
                     position,
                     intensity,
@@ -24,7 +25,7 @@ impl<const N: usize> Builder<N> {
                     if !position.is_finite() {
                         return Err(wrong("position must be finite"));
                     }
-                    let power = 4.0 * PI * mean(&intensity.0);
+                    let power = 4.0 * PI * intensity.brightness();
                     (Emitter::Point(position), intensity, power)
                 }
                 PointLight::Directional {
@@ -36,17 +37,17 @@ impl<const N: usize> Builder<N> {
                         return Err(wrong("direction must be finite and not zero"));
                     }
                     let radius = self.radius();
-                    let power = PI * radius * radius * mean(&irradiance.0);
+                    let power = PI * radius * radius * irradiance.brightness();
                     (Emitter::Directional(toward.as_vec3()), irradiance, power)
                 }
             };
-            if !strength.0.iter().all(|x| x.is_finite()) {
+            if !strength.is_finite() {
                 return Err(wrong("strength must be finite"));
             }
             self.powers.push(Some(power));
             self.lights.push(Light {
                 emitter,
-                strength: strength.0,
+                strength: strength.clone(),
                 prim: NONE,
                 probability: 0.0,
             });
@@ -59,10 +60,10 @@ impl<const N: usize> Builder<N> {
         let (emitter, strength, power) = match &self.description.environment {
             None => return Ok(None),
             Some(Environment::Constant(radiance)) => {
-                if !radiance.0.iter().all(|x| x.is_finite()) {
+                if !radiance.is_finite() {
                     return Err(SceneError::Environment("radiance must be finite"));
                 }
-                (Emitter::Constant, radiance.0, None)
+                (Emitter::Constant, radiance, None)
             }
             Some(Environment::Image(image)) => {
                 let count = image.width as usize * image.height as usize;
@@ -71,19 +72,15 @@ impl<const N: usize> Builder<N> {
                         "pixels must be width x height, not none",
                     ));
                 }
-                if !image
-                    .pixels
-                    .iter()
-                    .all(|p| p.0.iter().all(|x| x.is_finite()))
-                {
+                if !image.pixels.iter().all(Emission::is_finite) {
                     return Err(SceneError::Environment("radiance must be finite"));
                 }
-                let total: f64 = image.pixels.iter().map(|p| mean(&p.0)).sum();
+                let total: f64 = image.pixels.iter().map(Emission::brightness).sum();
                 match ImageLight::new(image) {
                     None => return Ok(None),
                     Some(light) => {
                         let power = self.environment_power(total / count as f64);
-                        (Emitter::Image(light), [0.0; N], Some(power))
+                        (Emitter::Image(light), &image.pixels[0], Some(power))
                     }
                 }
             }
@@ -92,7 +89,7 @@ impl<const N: usize> Builder<N> {
         self.powers.push(power);
         self.lights.push(Light {
             emitter,
-            strength,
+            strength: strength.clone(),
             prim: NONE,
             probability: 0.0,
         });
@@ -104,10 +101,4 @@ impl<const N: usize> Builder<N> {
         let radius = self.radius();
         4.0 * PI * PI * radius * radius * radiance
     }
-}
-
-/// Mean over the channels, not below zero: the brightness that choices go by.
-pub(crate) fn mean<const N: usize>(values: &[f32; N]) -> f64 {
-    let sum: f64 = values.iter().map(|&x| f64::from(x)).sum();
-    (sum / N.max(1) as f64).max(0.0)
 }

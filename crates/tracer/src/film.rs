@@ -148,6 +148,37 @@ impl<const N: usize> Film<N> {
         })
     }
 
+    /// The film in other channels: `rows[c]` is what one unit of channel `c` adds to each of them.
+    ///
+    /// Linear, so that every replicate is what it would have been, had it been recorded in those channels.
+    #[must_use]
+    pub fn mapped<const M: usize>(&self, rows: &[[f64; M]; N]) -> Film<M> {
+        let map = |sum: &[f64; N]| {
+            let mut out = [0.0; M];
+            for (value, row) in sum.iter().zip(rows) {
+                for (o, weight) in out.iter_mut().zip(row) {
+                    *o += value * weight;
+                }
+            }
+            out
+        };
+        let tile = |t: &Tile<N>| Tile {
+            x: t.x,
+            y: t.y,
+            width: t.width,
+            height: t.height,
+            replicates: t.replicates,
+            done: t.done,
+            sums: t.sums.iter().map(map).collect(),
+        };
+        Film {
+            width: self.width,
+            height: self.height,
+            replicates: self.replicates,
+            tiles: self.tiles.iter().map(tile).collect(),
+        }
+    }
+
     /// One value a pixel, row after row, from its tile and its sums by replicate.
     pub(crate) fn map<T: Clone>(&self, empty: T, f: impl Fn(&Tile<N>, &[[f64; N]]) -> T) -> Vec<T> {
         let mut out = vec![empty; self.width as usize * self.height as usize];
@@ -187,7 +218,7 @@ impl<const N: usize> Tile<N> {
     }
 
     /// Adds sample number `sample` of every pixel.
-    pub(crate) fn add(&mut self, sample: u32, light: &[[f32; N]]) {
+    pub(crate) fn add(&mut self, sample: u32, light: impl Iterator<Item = [f32; N]>) {
         let (replicates, r) = (
             self.replicates as usize,
             (sample % self.replicates) as usize,

@@ -4,6 +4,7 @@ use crate::camera::Rays;
 use crate::filter::Sampler;
 use crate::light::Lights;
 use crate::math::mix;
+use crate::mode::Mode;
 use crate::path::NONE;
 use crate::scene::Scene;
 use crate::settings::{Settings, Strategy};
@@ -15,9 +16,9 @@ const PER_VERTEX: u32 = 3;
 const FIRST_VERTEX: u32 = 1;
 
 /// The scene with everything that is chosen once per render.
-pub(crate) struct Kernel<'a, const N: usize> {
-    pub(crate) scene: &'a Scene<N>,
-    pub(crate) lights: &'a Lights<N>,
+pub(crate) struct Kernel<'a, const N: usize, S: Mode<N>> {
+    pub(crate) scene: &'a Scene<N, S>,
+    pub(crate) lights: &'a Lights<S::Emission>,
     pub(crate) camera: Rays,
     pub(crate) width: u32,
     /// Asked with a stream number, not a pixel: each replicate of a pixel is a stream, scrambled for itself.
@@ -43,9 +44,9 @@ pub(crate) struct Kernel<'a, const N: usize> {
 /// Marks sides that shine.
 pub(crate) const SHINES: u32 = 1 << 31;
 
-impl<'a, const N: usize> Kernel<'a, N> {
+impl<'a, const N: usize, S: Mode<N>> Kernel<'a, N, S> {
     pub(crate) fn new(
-        scene: &'a Scene<N>,
+        scene: &'a Scene<N, S>,
         settings: &Settings,
         size: [u32; 2],
         replicates: u32,
@@ -79,6 +80,17 @@ impl<'a, const N: usize> Kernel<'a, N> {
         FIRST_VERTEX + PER_VERTEX * depth + part
     }
 
+    /// What tells this path apart from others. The single dimension 0 is used by nothing else.
+    #[inline(always)]
+    pub(crate) fn tag(&self, stream: u32, index: u32) -> S::Tag {
+        let u = if S::DRAWS {
+            self.points.get1(stream, index, 0)
+        } else {
+            0.0
+        };
+        self.scene.mode.tag(u)
+    }
+
     /// A number in [0, 1) for the roulette, apart from the points that must stay even.
     #[inline]
     pub(crate) fn chance(&self, stream: u32, index: u32, depth: u32) -> f32 {
@@ -88,7 +100,7 @@ impl<'a, const N: usize> Kernel<'a, N> {
     }
 }
 
-fn sides<const N: usize>(scene: &Scene<N>) -> Vec<u32> {
+fn sides<const N: usize, S: Mode<N>>(scene: &Scene<N, S>) -> Vec<u32> {
     let end = scene.materials.len() as u32;
     let shine = |light: bool| if light { SHINES } else { 0 };
     let objects = scene.surfaces.iter().flat_map(|s| {

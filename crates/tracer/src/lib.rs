@@ -6,6 +6,7 @@
 //! Goals: path tracing with next-event estimation and multiple importance sampling, over streams of paths, so that
 //! materials are asked for hundreds of directions by one call; the same bits for the same seed, whatever the threads
 //! and interruptions; scenes of any size, from a millionth to a million.
+//! Channels: fixed ones, whatever they mean, or hero wavelengths that differ from path to path ([`Mode`]).
 //! Simplifications: surfaces reflect and do not transmit; emitters shine on their front; environments are constant over
 //! a pixel of their picture; analytic shapes are tested one after the other, which serves some tens of them.
 //! Not here: files, formats, colour spaces, particular reflectances. Space is the caller's: lengths have no unit, y is
@@ -23,6 +24,7 @@ mod geometry;
 mod kernel;
 mod light;
 mod math;
+mod mode;
 mod path;
 mod plan;
 mod render;
@@ -37,6 +39,7 @@ pub use estimate::Estimate;
 pub use film::{Film, RestoreError, Tile};
 pub use filter::PixelFilter;
 pub use light::{Environment, EnvironmentImage, PointLight};
+pub use mode::{Develop, Emission, Fixed, Hero, HeroEmission, Mode};
 pub use plan::LeftOut;
 pub use render::{Progress, RenderError, render};
 pub use sampling::PointSet;

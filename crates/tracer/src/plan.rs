@@ -1,6 +1,7 @@
 //! What a render leaves out because its scene does not need it.
 
 use crate::filter::PixelFilter;
+use crate::mode::Mode;
 use crate::scene::Scene;
 use crate::settings::{Settings, Strategy};
 use std::fmt;
@@ -39,7 +40,7 @@ impl fmt::Display for LeftOut {
     }
 }
 
-impl<const N: usize> Scene<N> {
+impl<const N: usize, S: Mode<N>> Scene<N, S> {
     /// What [`crate::render`] does without for this scene and these settings.
     #[must_use]
     pub fn left_out(&self, settings: &Settings) -> Vec<LeftOut> {

@@ -3,6 +3,7 @@
 use crate::batch::{Batch, Samples, Workspace};
 use crate::film::{Film, TILE, Tile};
 use crate::kernel::Kernel;
+use crate::mode::Develop;
 use crate::scene::Scene;
 use crate::settings::Settings;
 use crate::stats::Stats;
@@ -56,11 +57,11 @@ pub struct RenderError(#[from] rayon::ThreadPoolBuildError);
 ///
 /// # Errors
 /// If the threads that were asked for can't be started.
-pub fn render<const N: usize>(
-    scene: &Scene<N>,
+pub fn render<const N: usize, const M: usize, S: Develop<N, M>>(
+    scene: &Scene<N, S>,
     settings: &Settings,
-    film: &mut Film<N>,
-    progress: &dyn Progress<N>,
+    film: &mut Film<M>,
+    progress: &dyn Progress<M>,
 ) -> Result<Stats, RenderError> {
     match settings.threads {
         None => Ok(passes(scene, settings, film, progress)),
@@ -73,11 +74,11 @@ pub fn render<const N: usize>(
     }
 }
 
-fn passes<const N: usize>(
-    scene: &Scene<N>,
+fn passes<const N: usize, const M: usize, S: Develop<N, M>>(
+    scene: &Scene<N, S>,
     settings: &Settings,
-    film: &mut Film<N>,
-    progress: &dyn Progress<N>,
+    film: &mut Film<M>,
+    progress: &dyn Progress<M>,
 ) -> Stats {
     let kernel = Kernel::new(
         scene,
@@ -103,7 +104,7 @@ fn passes<const N: usize>(
         target = target.saturating_mul(2);
     }
     let mut stats = Stats::default();
-    let workspaces: Vec<Workspace<N>> = pool.into_inner().unwrap_or_default();
+    let workspaces: Vec<Workspace<N, S>> = pool.into_inner().unwrap_or_default();
     for workspace in &workspaces {
         stats += workspace.stats;
     }
@@ -111,12 +112,12 @@ fn passes<const N: usize>(
 }
 
 /// Takes one tile to `aim` samples a pixel.
-fn run_tile<const N: usize>(
-    kernel: &Kernel<'_, N>,
-    pool: &Mutex<Vec<Workspace<N>>>,
-    tile: &mut Tile<N>,
+fn run_tile<const N: usize, const M: usize, S: Develop<N, M>>(
+    kernel: &Kernel<'_, N, S>,
+    pool: &Mutex<Vec<Workspace<N, S>>>,
+    tile: &mut Tile<M>,
     aim: u32,
-    progress: &dyn Progress<N>,
+    progress: &dyn Progress<M>,
 ) {
     let take = || pool.lock().ok()?.pop();
     let mut workspace = take().unwrap_or_else(|| {

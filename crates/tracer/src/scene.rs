@@ -4,14 +4,14 @@ use crate::build::Builder;
 use crate::camera::Camera;
 use crate::geometry::Geometry;
 use crate::light::{Environment, Lights, PointLight};
+use crate::mode::{Fixed, Mode};
 use crate::shape::Shape;
 use brdf::Material;
 use glam::DAffine3;
-use spectrum::Samples;
 
 /// A shape in the world with its surface.
 #[derive(Clone, Debug)]
-pub struct Object<const N: usize> {
+pub struct Object<const N: usize, S: Mode<N> = Fixed> {
     /// What it is.
     pub shape: Shape,
     /// From the shape's coordinates to the world's.
@@ -19,12 +19,12 @@ pub struct Object<const N: usize> {
     /// Index into [`Description::materials`].
     pub material: usize,
     /// Radiance its front sends out.
-    pub emission: Option<Samples<N>>,
+    pub emission: Option<S::Emission>,
     /// Whether the back is black; otherwise both sides reflect alike.
     pub one_sided: bool,
 }
 
-impl<const N: usize> Object<N> {
+impl<const N: usize, S: Mode<N>> Object<N, S> {
     /// A shape where it stands, with a material, not shining, reflecting on both sides.
     #[must_use]
     pub fn new(shape: Shape, material: usize) -> Self {
@@ -42,20 +42,20 @@ impl<const N: usize> Object<N> {
 ///
 /// Materials are asked in a local frame whose z is the normal on the viewer's side. Its x and y depend on the normal
 /// alone: reflectances that are not isotropic are turned with it.
-pub struct Description<const N: usize> {
+pub struct Description<const N: usize, S: Mode<N> = Fixed> {
     /// Who looks.
     pub camera: Camera,
     /// Surfaces, referred to by index.
-    pub materials: Vec<Box<dyn Material<N>>>,
+    pub materials: Vec<Box<dyn Material<N, S::Tag>>>,
     /// Shapes.
-    pub objects: Vec<Object<N>>,
+    pub objects: Vec<Object<N, S>>,
     /// Lights without extent.
-    pub lights: Vec<PointLight<N>>,
+    pub lights: Vec<PointLight<S::Emission>>,
     /// What is seen where nothing is; `None` is black.
-    pub environment: Option<Environment<N>>,
+    pub environment: Option<Environment<S::Emission>>,
 }
 
-impl<const N: usize> std::fmt::Debug for Description<N> {
+impl<const N: usize, S: Mode<N>> std::fmt::Debug for Description<N, S> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Description")
             .field("camera", &self.camera)
@@ -107,15 +107,16 @@ pub(crate) struct Surface {
 }
 
 /// A scene ready to be rendered.
-pub struct Scene<const N: usize> {
+pub struct Scene<const N: usize, S: Mode<N> = Fixed> {
+    pub(crate) mode: S,
     pub(crate) camera: Camera,
-    pub(crate) materials: Vec<Box<dyn Material<N>>>,
+    pub(crate) materials: Vec<Box<dyn Material<N, S::Tag>>>,
     pub(crate) geometry: Geometry,
     pub(crate) surfaces: Vec<Surface>,
     /// For [`crate::Strategy::Mis`].
-    pub(crate) lights: Lights<N>,
+    pub(crate) lights: Lights<S::Emission>,
     /// For [`crate::Strategy::LightOnly`], where a constant environment is asked as well.
-    pub(crate) all_lights: Lights<N>,
+    pub(crate) all_lights: Lights<S::Emission>,
     /// Index of the environment among the lights.
     pub(crate) environment: Option<u32>,
     /// Whether any triangle is shaded with a normal of its own.
@@ -123,7 +124,7 @@ pub struct Scene<const N: usize> {
     pub(crate) left_out: usize,
 }
 
-impl<const N: usize> std::fmt::Debug for Scene<N> {
+impl<const N: usize, S: Mode<N>> std::fmt::Debug for Scene<N, S> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Scene")
             .field("camera", &self.camera)
@@ -134,12 +135,22 @@ impl<const N: usize> std::fmt::Debug for Scene<N> {
 }
 
 impl<const N: usize> Scene<N> {
+    /// A scene whose paths all carry the same channels; see [`Self::with_mode`].
+    ///
+    /// # Errors
+    /// As [`Self::with_mode`].
+    pub fn new(description: Description<N>) -> Result<Self, SceneError> {
+        Self::with_mode(Fixed, description)
+    }
+}
+
+impl<const N: usize, S: Mode<N>> Scene<N, S> {
     /// Checks a description, moves every shape into the world and builds trees and tables.
     ///
     /// # Errors
     /// Says which part of the description can't be used and why.
-    pub fn new(description: Description<N>) -> Result<Self, SceneError> {
-        Builder::new(description)?.finish()
+    pub fn with_mode(mode: S, description: Description<N, S>) -> Result<Self, SceneError> {
+        Builder::new(description)?.finish(mode)
     }
 
     /// Triangles that are rendered.

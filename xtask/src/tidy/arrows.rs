@@ -10,7 +10,7 @@ pub(super) const ARROWS: &[(&str, &[&str])] = &[
     ("sampling", &[]),
     ("brdf-formats", &[]),
     ("plot", &[]),
-    ("testkit", &[]),
+    ("testkit", &["sampling"]),
     ("brdf", &["spectrum", "sampling"]),
     ("brdf-models", &["brdf", "spectrum", "sampling"]),
     (
@@ -22,6 +22,7 @@ pub(super) const ARROWS: &[(&str, &[&str])] = &[
         &["brdf", "spectrum", "sampling", "brdf-formats"],
     ),
     ("brdf-sampling", &["brdf", "sampling"]),
+    ("brdf-fit", &["brdf", "brdf-models", "sampling", "spectrum"]),
     ("tracer", &["brdf", "spectrum", "sampling"]),
     (
         "scene-io",
@@ -50,6 +51,7 @@ pub(super) const ARROWS: &[(&str, &[&str])] = &[
             "brdf-table",
             "brdf-measure",
             "brdf-sampling",
+            "brdf-fit",
             "tracer",
             "scene-io",
         ],
@@ -61,6 +63,7 @@ pub(super) const ARROWS: &[(&str, &[&str])] = &[
             "brdf-table",
             "brdf-measure",
             "brdf-models",
+            "brdf-fit",
             "brdf",
             "scene-io",
             "spectrum",

@@ -38,7 +38,7 @@ pub enum ModelError {
         /// The model.
         model: &'static str,
         /// The parameter.
-        name: &'static str,
+        name: String,
     },
     /// A value that is no number.
     #[error("model `{model}`, parameter `{name}`: expected {expected}, found `{text}`")]
@@ -46,7 +46,7 @@ pub enum ModelError {
         /// The model.
         model: &'static str,
         /// The parameter.
-        name: &'static str,
+        name: String,
         /// What would do.
         expected: String,
         /// As typed.
@@ -58,7 +58,7 @@ pub enum ModelError {
         /// The model.
         model: &'static str,
         /// The parameter.
-        name: &'static str,
+        name: String,
         /// As given.
         value: f64,
         /// Smallest accepted.
@@ -72,7 +72,7 @@ pub enum ModelError {
         /// The model.
         model: &'static str,
         /// The parameter.
-        name: &'static str,
+        name: String,
         /// What would do.
         expected: String,
         /// How many were given.
@@ -84,8 +84,8 @@ pub enum ModelError {
         /// The model.
         model: &'static str,
         /// One of them.
-        first: &'static str,
+        first: String,
         /// The other.
-        second: &'static str,
+        second: String,
     },
 }

@@ -1,6 +1,6 @@
 //! The Fresnel parameters that all microfacet models share.
 
-use super::{DefaultValue, Parameter, Values};
+use super::{DefaultValue, Parameter, Role, Values};
 use crate::fresnel::{Fresnel, METALS};
 
 /// Names accepted for n: metals, in RGB.
@@ -37,6 +37,8 @@ pub(crate) const N: Parameter = Parameter {
     range: (1e-3, 1e3),
     default: DefaultValue::Absent,
     per_channel: true,
+    role: Role::Shape,
+    repeats: false,
     words: N_WORDS,
     excludes: &["f0"],
 };

@@ -1,6 +1,17 @@
 //! Parameters: what a model takes, and the values it was given.
 
+use std::borrow::Cow;
 use std::fmt;
+
+/// How f depends on a parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// In some way or other: roughness, exponent, refractive index. Fits search for it.
+    Shape,
+    /// Linearly, channel by channel: for fixed shapes f is a sum of lobes, each times its weight
+    /// ([`super::ParsedModel::lobes`]). Fits solve for it.
+    Weight,
+}
 
 /// What a parameter is when the text does not say.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +39,10 @@ pub struct Parameter {
     pub default: DefaultValue,
     /// Takes one value, or one a channel.
     pub per_channel: bool,
+    /// How f depends on it.
+    pub role: Role,
+    /// Belongs to a lobe that may be there any number of times: `ks2`, `ks3` ... are the same of further lobes.
+    pub repeats: bool,
     /// Names that stand for values in R/G/B.
     pub words: &'static [(&'static str, [f64; 3])],
     /// Parameters that may not be given beside it.
@@ -49,6 +64,8 @@ impl Parameter {
             range,
             default: DefaultValue::Value(default),
             per_channel: false,
+            role: Role::Shape,
+            repeats: false,
             words: &[],
             excludes: &[],
         }
@@ -59,6 +76,23 @@ impl Parameter {
         Self {
             per_channel: true,
             ..Self::scalar(name, title, (0.0, 1.0), default)
+        }
+    }
+
+    /// The albedo of a lobe that enters linearly, one or one a channel, [0, 1].
+    pub(crate) const fn base(name: &'static str, title: &'static str, default: f64) -> Self {
+        Self {
+            role: Role::Weight,
+            ..Self::albedo(name, title, default)
+        }
+    }
+
+    /// The factor of a lobe, one or one a channel, [0, 1000]: where 1 stands for all of the light, larger ones
+    /// break the energy, but measured data may ask for them.
+    pub(crate) const fn weight(name: &'static str, title: &'static str, default: f64) -> Self {
+        Self {
+            range: (0.0, 1e3),
+            ..Self::base(name, title, default)
         }
     }
 
@@ -84,7 +118,7 @@ impl Parameter {
 /// The values of a model's parameters, complete: defaults are filled in.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Values {
-    pub(super) entries: Vec<(&'static str, Vec<f64>)>,
+    pub(super) entries: Vec<(Cow<'static, str>, Vec<f64>)>,
 }
 
 impl Values {
@@ -93,7 +127,7 @@ impl Values {
     pub fn get(&self, name: &str) -> &[f64] {
         self.entries
             .iter()
-            .find(|(n, _)| *n == name)
+            .find(|(n, _)| n == name)
             .map_or(&[], |(_, v)| v)
     }
 
@@ -104,8 +138,8 @@ impl Values {
     }
 
     /// Name and numbers of every parameter that is not absent.
-    pub fn iter(&self) -> impl Iterator<Item = (&'static str, &[f64])> {
-        self.entries.iter().map(|(n, v)| (*n, v.as_slice()))
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &[f64])> {
+        self.entries.iter().map(|(n, v)| (&**n, v.as_slice()))
     }
 
     /// A parameter that has one number; NaN if it is absent.

@@ -1,6 +1,6 @@
 //! docs/models.md says what the registry says.
 
-use brdf_models::{DefaultValue, Laws, MODELS, ModelInfo, Parameter};
+use brdf_models::{DefaultValue, Laws, MODELS, ModelInfo, Parameter, Role};
 use std::path::Path;
 
 fn parameter(p: &Parameter) -> String {
@@ -15,8 +15,20 @@ fn parameter(p: &Parameter) -> String {
         format!(" {}", p.unit)
     };
     let channels = if p.per_channel { ", per channel" } else { "" };
+    let linear = match p.role {
+        Role::Weight => ", linear",
+        Role::Shape => "",
+    };
+    let further = if p.repeats {
+        format!("; further lobes: `{0}2`, `{0}3` ...", p.name)
+    } else {
+        String::new()
+    };
     let range = format!("{} ... {}{unit}", p.range.0, p.range.1);
-    format!("`{}` {} ({default}; {range}{channels})", p.name, p.title)
+    format!(
+        "`{}` {} ({default}; {range}{channels}{linear}{further})",
+        p.name, p.title
+    )
 }
 
 fn laws(laws: Laws) -> String {
@@ -54,22 +66,26 @@ fn section(m: &ModelInfo) -> String {
     )
 }
 
+/// Everything from this heading on is written by the test, with `GONIO_BLESS=1`.
+const HEADING: &str = "## The models\n\n";
+
 #[test]
 #[expect(
     clippy::disallowed_methods,
-    reason = "reads the project's own documentation"
+    reason = "reads and writes the project's own documentation"
 )]
 fn documentation_matches_the_registry() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/models.md");
-    let text = std::fs::read_to_string(path).expect("docs/models.md");
-    let missing: Vec<_> = MODELS
-        .iter()
-        .map(section)
-        .filter(|s| !text.contains(s))
-        .collect();
-    assert!(
-        missing.is_empty(),
-        "docs/models.md needs:\n\n{}",
-        missing.join("\n")
-    );
+    let text = std::fs::read_to_string(&path).expect("docs/models.md");
+    let start = text.find(HEADING).expect("the heading of the list") + HEADING.len();
+    let sections: Vec<_> = MODELS.iter().map(section).collect();
+    let expected = format!("{}{}", &text[..start], sections.join("\n"));
+    if std::env::var_os("GONIO_BLESS").is_some() {
+        std::fs::write(&path, expected).expect("docs/models.md can be written");
+    } else {
+        assert_eq!(
+            text, expected,
+            "docs/models.md differs from the registry; GONIO_BLESS=1 writes it anew"
+        );
+    }
 }

@@ -5,6 +5,7 @@ mod docs;
 mod energy;
 mod extremes;
 mod listed;
+mod lobes;
 mod packets;
 mod parsing;
 mod reciprocity;

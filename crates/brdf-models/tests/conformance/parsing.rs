@@ -37,6 +37,33 @@ fn defaults_are_filled_in() {
 }
 
 #[test]
+fn lobes_are_numbered() {
+    let echo = |text| parse_model(text).unwrap().to_string();
+    assert_eq!(
+        echo("lafortune:n2=8,kd=0.1,cx2=0.5"),
+        "lafortune:ks=0.5,n=50,cx=-1,cy=-1,cz=1,ks2=0.5,n2=8,cx2=0.5,cy2=0.5,cz2=1,kd=0.1"
+    );
+    assert_eq!(
+        parse_model("lafortune:ks64=0")
+            .unwrap()
+            .values
+            .iter()
+            .count(),
+        64 * 5 + 1
+    );
+    for text in [
+        "lafortune:n1=3",
+        "lafortune:n02=3",
+        "lafortune:kd2=0.1",
+        "lafortune:n65=1",
+        "ggx:alpha2=0.1",
+    ] {
+        let error = parse_model(text).unwrap_err().to_string();
+        assert!(error.contains("has no parameter"), "`{text}`: {error}");
+    }
+}
+
+#[test]
 fn errors_say_place_expected_and_found() {
     let cases = [
         (

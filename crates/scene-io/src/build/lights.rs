@@ -8,7 +8,7 @@ use glam::{DMat3, DVec3};
 use spectrum::Samples;
 use tracer::{Environment, EnvironmentImage, PointLight};
 
-type Lights = (Vec<PointLight<3>>, Option<Environment<3>>);
+type Lights = (Vec<PointLight<Samples<3>>>, Option<Environment<Samples<3>>>);
 
 pub(super) fn lights(file: &SceneFile, places: &Places) -> Result<Lights, Error> {
     let mut points = Vec::new();
@@ -46,7 +46,10 @@ fn samples(c: Colour) -> Samples<3> {
     Samples(c.0.map(|v| v as f32))
 }
 
-fn image(light: &LightSpec, places: &Places) -> Result<Option<EnvironmentImage<3>>, Error> {
+fn image(
+    light: &LightSpec,
+    places: &Places,
+) -> Result<Option<EnvironmentImage<Samples<3>>>, Error> {
     let LightSpec::Image {
         path,
         scale,

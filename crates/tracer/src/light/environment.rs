@@ -1,17 +1,18 @@
 //! Light from infinitely far away in every direction.
 
+use crate::mode::Emission;
+use brdf::Tag;
 use glam::{DMat3, DVec2, DVec3, Mat3, Vec3};
 use sampling::Piecewise2;
-use spectrum::Samples;
 use std::f32::consts::PI;
 
 /// What a ray that leaves the scene sees.
 #[derive(Clone, Debug)]
-pub enum Environment<const N: usize> {
+pub enum Environment<E> {
     /// The same radiance everywhere.
-    Constant(Samples<N>),
+    Constant(E),
     /// A latitude-longitude picture.
-    Image(EnvironmentImage<N>),
+    Image(EnvironmentImage<E>),
 }
 
 /// A latitude-longitude picture around the scene.
@@ -19,23 +20,23 @@ pub enum Environment<const N: usize> {
 /// The top row is +y, the middle of the picture is -z, and +x lies a quarter to the right of the middle
 /// (as seen from inside). Radiance is constant over a pixel: the density it is sampled with then follows it exactly.
 #[derive(Clone, Debug)]
-pub struct EnvironmentImage<const N: usize> {
+pub struct EnvironmentImage<E> {
     /// Columns, positive.
     pub width: u32,
     /// Rows, positive.
     pub height: u32,
     /// Row after row from the top, `width * height` radiances.
-    pub pixels: Vec<Samples<N>>,
+    pub pixels: Vec<E>,
     /// Rotation from the picture's axes to the world's.
     pub to_world: DMat3,
 }
 
 /// The picture with its sampling tables.
 #[derive(Clone, Debug)]
-pub(crate) struct ImageLight<const N: usize> {
+pub(crate) struct ImageLight<E> {
     width: u32,
     height: u32,
-    pixels: Vec<[f32; N]>,
+    pixels: Vec<E>,
     to_world: Mat3,
     to_local: Mat3,
     /// Brightness times solid angle of each pixel, over columns and rows.
@@ -44,11 +45,14 @@ pub(crate) struct ImageLight<const N: usize> {
     density: Vec<f32>,
 }
 
-impl<const N: usize> ImageLight<N> {
+impl<E> ImageLight<E> {
     /// Builds the tables. `None` if the picture is nowhere bright.
-    pub(crate) fn new(image: &EnvironmentImage<N>) -> Option<Self> {
+    pub(crate) fn new<const N: usize, T: Tag>(image: &EnvironmentImage<E>) -> Option<Self>
+    where
+        E: Emission<N, T>,
+    {
         let (w, h) = (image.width as usize, image.height as usize);
-        let bright = |i: usize| f64::from(image.pixels[i].mean().max(0.0));
+        let bright = |i: usize| image.pixels[i].brightness();
         let solid_angle = |i: usize| row_solid_angle(i / w, h) * std::f64::consts::TAU / w as f64;
         let power: Vec<f64> = (0..w * h).map(|i| bright(i) * solid_angle(i)).collect();
         let total: f64 = power.iter().sum();
@@ -56,7 +60,7 @@ impl<const N: usize> ImageLight<N> {
         Some(Self {
             width: image.width,
             height: image.height,
-            pixels: image.pixels.iter().map(|p| p.0).collect(),
+            pixels: image.pixels.clone(),
             to_world: image.to_world.as_mat3(),
             to_local: image.to_world.transpose().as_mat3(),
             table,
@@ -78,8 +82,8 @@ impl<const N: usize> ImageLight<N> {
 
     /// Radiance from direction `d`.
     #[inline]
-    pub(crate) fn radiance(&self, d: Vec3) -> [f32; N] {
-        self.pixels[self.pixel(d)]
+    pub(crate) fn radiance(&self, d: Vec3) -> &E {
+        &self.pixels[self.pixel(d)]
     }
 
     /// Density of [`Self::sample`] per solid angle.
@@ -90,7 +94,7 @@ impl<const N: usize> ImageLight<N> {
 
     /// A direction, its density and the radiance from there.
     #[inline]
-    pub(crate) fn sample(&self, u: f32, v: f32) -> (Vec3, f32, [f32; N]) {
+    pub(crate) fn sample(&self, u: f32, v: f32) -> (Vec3, f32, &E) {
         let (at, _) = self.table.sample(DVec2::new(f64::from(u), f64::from(v)));
         let (column, row) = (at.x * f64::from(self.width), at.y * f64::from(self.height));
         let x = (column as u32).min(self.width - 1);
@@ -103,7 +107,7 @@ impl<const N: usize> ImageLight<N> {
         let phi = (at.x - 0.5) * std::f64::consts::TAU;
         let d = DVec3::new(sin * phi.sin(), cos, -sin * phi.cos()).as_vec3();
         let i = (y * self.width + x) as usize;
-        (self.to_world * d, self.density[i], self.pixels[i])
+        (self.to_world * d, self.density[i], &self.pixels[i])
     }
 }
 

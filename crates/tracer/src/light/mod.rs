@@ -14,36 +14,36 @@ pub(crate) use sphere::SphereLight;
 pub(crate) use triangles::TriangleLight;
 
 use crate::math::{F, U, sin_cos};
+use crate::mode::Emission;
 use crate::path::NONE;
-use brdf::{LANES, Lanes3};
+use brdf::{LANES, Lanes3, Tag};
 use glam::{DVec3, Vec3};
 use rect::Toward;
-use spectrum::Samples;
 use std::f32::consts::PI;
 
 /// A light without extent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum PointLight<const N: usize> {
+pub enum PointLight<E> {
     /// Shines from one point.
     Point {
         /// Where.
         position: DVec3,
         /// Radiant intensity: radiance of a small source times its area.
-        intensity: Samples<N>,
+        intensity: E,
     },
     /// Shines along one direction from infinitely far.
     Directional {
         /// The way the light travels, any length but zero.
         direction: DVec3,
         /// On a plane across the direction.
-        irradiance: Samples<N>,
+        irradiance: E,
     },
 }
 
 /// The shape of a light.
 #[derive(Clone, Debug)]
-pub(crate) enum Emitter<const N: usize> {
+pub(crate) enum Emitter<E> {
     Rect(RectLight),
     Sphere(SphereLight),
     Triangles(TriangleLight),
@@ -51,15 +51,15 @@ pub(crate) enum Emitter<const N: usize> {
     /// Toward the light.
     Directional(Vec3),
     Constant,
-    Image(ImageLight<N>),
+    Image(ImageLight<E>),
 }
 
 /// A light: shape, strength and the probability that it is the one asked.
 #[derive(Clone, Debug)]
-pub(crate) struct Light<const N: usize> {
-    pub(crate) emitter: Emitter<N>,
+pub(crate) struct Light<E> {
+    pub(crate) emitter: Emitter<E>,
     /// Radiance, intensity or irradiance by kind; unused by a picture.
-    pub(crate) strength: [f32; N],
+    pub(crate) strength: E,
     /// Primitive of an analytic shape, or [`NONE`].
     pub(crate) prim: u32,
     pub(crate) probability: f32,
@@ -97,13 +97,19 @@ impl<const N: usize> LightLanes<N> {
     }
 }
 
-impl<const N: usize> Light<N> {
-    /// Fills the lanes of `out` for the points `p`.
+impl<E> Light<E> {
+    /// Fills the lanes of `out` for the points `p` of paths with these tags.
     #[inline(always)]
-    pub(crate) fn sample(&self, p: &Lanes3, u: &[F; 2], out: &mut LightLanes<N>) {
-        for c in 0..N {
-            out.radiance[c] = [self.strength[c]; LANES];
-        }
+    pub(crate) fn sample<const N: usize, T: Tag>(
+        &self,
+        p: &Lanes3,
+        u: &[F; 2],
+        tags: &[T; LANES],
+        out: &mut LightLanes<N>,
+    ) where
+        E: Emission<N, T>,
+    {
+        out.radiance = self.strength.at_lanes(tags);
         out.shared = [1.0; LANES];
         out.prim = [self.prim; LANES];
         match &self.emitter {
@@ -135,6 +141,7 @@ impl<const N: usize> Light<N> {
             Emitter::Image(light) => {
                 for k in 0..LANES {
                     let (wi, pdf, radiance) = light.sample(u[0][k], u[1][k]);
+                    let radiance = radiance.at(tags[k]);
                     out.set(k, far(wi, pdf), self.probability);
                     for c in 0..N {
                         out.radiance[c][k] = radiance[c];
@@ -156,7 +163,7 @@ impl<const N: usize> Light<N> {
 
     /// [`Self::sample`] for lights without extent.
     #[inline(never)]
-    fn sample_point(&self, p: &Lanes3, out: &mut LightLanes<N>) {
+    fn sample_point<const N: usize>(&self, p: &Lanes3, out: &mut LightLanes<N>) {
         out.shared = [0.0; LANES];
         for k in 0..LANES {
             let (toward, fall) = match &self.emitter {
@@ -195,12 +202,15 @@ impl<const N: usize> Light<N> {
         pdf * self.probability
     }
 
-    /// Radiance toward `-d` of an emitter that was met.
+    /// Radiance toward `-d` of an emitter that was met by a path with this tag.
     #[inline]
-    pub(crate) fn radiance(&self, d: Vec3) -> [f32; N] {
+    pub(crate) fn radiance<const N: usize, T: Tag>(&self, d: Vec3, tag: T) -> [f32; N]
+    where
+        E: Emission<N, T>,
+    {
         match &self.emitter {
-            Emitter::Image(light) => light.radiance(d),
-            _ => self.strength,
+            Emitter::Image(light) => light.radiance(d).at(tag),
+            _ => self.strength.at(tag),
         }
     }
 }

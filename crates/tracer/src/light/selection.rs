@@ -2,13 +2,14 @@
 
 use super::{Light, LightLanes};
 use crate::math::F;
-use brdf::{LANES, Lanes3};
+use crate::mode::Emission;
+use brdf::{LANES, Lanes3, Tag};
 
 /// The lights of a scene. `lights[..asked]` take part in the choice, in proportion to their power mixed with an even
 /// share, so that a weak light near by is not starved.
 #[derive(Clone, Debug)]
-pub(crate) struct Lights<const N: usize> {
-    pub(crate) lights: Vec<Light<N>>,
+pub(crate) struct Lights<E> {
+    pub(crate) lights: Vec<Light<E>>,
     /// Probabilities up to and with each light.
     cdf: Vec<f32>,
     /// The only light with a probability, if there is just one.
@@ -18,9 +19,9 @@ pub(crate) struct Lights<const N: usize> {
 /// The part of the choice that ignores power.
 const EVEN: f64 = 0.5;
 
-impl<const N: usize> Lights<N> {
+impl<E> Lights<E> {
     /// From lights and their powers; a power of `None` keeps a light out of the choice.
-    pub(crate) fn new(mut lights: Vec<Light<N>>, powers: &[Option<f64>]) -> Self {
+    pub(crate) fn new(mut lights: Vec<Light<E>>, powers: &[Option<f64>]) -> Self {
         let total: f64 = powers.iter().flatten().sum();
         let count = powers.iter().flatten().count() as f64;
         let share = |power: &Option<f64>| match power {
@@ -57,16 +58,32 @@ impl<const N: usize> Lights<N> {
 
     /// Directions toward one light a lane; `choice` is read when there are several.
     #[inline(always)]
-    pub(crate) fn sample(&self, p: &Lanes3, choice: &F, u: &[F; 2], out: &mut LightLanes<N>) {
+    pub(crate) fn sample<const N: usize, T: Tag>(
+        &self,
+        p: &Lanes3,
+        (choice, u): (&F, &[F; 2]),
+        tags: &[T; LANES],
+        out: &mut LightLanes<N>,
+    ) where
+        E: Emission<N, T>,
+    {
         match self.only {
-            Some(i) => self.lights[i].sample(p, u, out),
-            None => self.sample_several(p, choice, u, out),
+            Some(i) => self.lights[i].sample(p, u, tags, out),
+            None => self.sample_several(p, (choice, u), tags, out),
         }
     }
 
     /// Asks each light that any lane chose, and keeps the lanes that chose it.
     #[inline(never)]
-    fn sample_several(&self, p: &Lanes3, choice: &F, u: &[F; 2], out: &mut LightLanes<N>) {
+    fn sample_several<const N: usize, T: Tag>(
+        &self,
+        p: &Lanes3,
+        (choice, u): (&F, &[F; 2]),
+        tags: &[T; LANES],
+        out: &mut LightLanes<N>,
+    ) where
+        E: Emission<N, T>,
+    {
         let last = self.cdf.len().saturating_sub(1);
         let chosen: [usize; LANES] =
             std::array::from_fn(|k| self.cdf.partition_point(|&c| c <= choice[k]).min(last));
@@ -79,7 +96,7 @@ impl<const N: usize> Lights<N> {
             let Some(light) = self.lights.get(chosen[k]) else {
                 continue;
             };
-            light.sample(p, u, &mut one);
+            light.sample(p, u, tags, &mut one);
             for j in k..LANES {
                 if chosen[j] == chosen[k] {
                     out.wi.set(j, one.wi.get(j));

@@ -112,7 +112,7 @@ pub(crate) fn shining(shape: Shape, radiance: f32) -> Object<1> {
     }
 }
 
-pub(crate) fn constant(radiance: f32) -> Option<Environment<1>> {
+pub(crate) fn constant(radiance: f32) -> Option<Environment<Samples<1>>> {
     Some(Environment::Constant(Samples([radiance])))
 }
 

@@ -110,7 +110,7 @@ fn triangles_and_slanted_quads_shine_like_the_rectangle() {
 }
 
 /// 8 x 4 pixels, dark but for some in the upper half.
-fn sky() -> EnvironmentImage<1> {
+fn sky() -> EnvironmentImage<Samples<1>> {
     let mut pixels = vec![Samples([0.05]); 32];
     pixels[10] = Samples([20.0]);
     pixels[5] = Samples([4.0]);

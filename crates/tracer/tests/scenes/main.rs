@@ -8,6 +8,7 @@
 mod closed_form;
 mod common;
 mod error;
+mod hero;
 mod invariance;
 mod lights;
 mod malformed;

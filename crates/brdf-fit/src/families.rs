@@ -1,0 +1,144 @@
+//! The families that can be fitted: models of the registry with the parameters a fit searches for.
+
+mod albedo;
+mod ashikhmin_shirley;
+mod lafortune;
+mod registry;
+
+use crate::FitError;
+use crate::family::{Family, Part, Scale, ShapeParameter};
+use brdf_models::{ParsedModel, parse_model_n};
+
+/// Starts of roughnesses: half a decade apart and closer where materials crowd.
+const ROUGHNESSES: &[f64] = &[0.003, 0.01, 0.03, 0.06, 0.12, 0.25, 0.5, 0.9];
+/// Starts of exponents, n = 2/alpha^2 of [`ROUGHNESSES`] and like them.
+const EXPONENTS: &[f64] = &[2.0, 8.0, 32.0, 140.0, 560.0, 2200.0, 2e4, 1e5];
+/// Starts of reflectances at normal incidence: dielectrics and metals.
+const REFLECTANCES: &[f64] = &[0.04, 0.5];
+/// Reflectances are searched for short of the mirror, whose index is infinite.
+const REFLECTANCE_RANGE: (f64, f64) = (1e-4, 0.9999);
+/// Exponents below are flatter than any lobe.
+const EXPONENT_RANGE: (f64, f64) = (0.1, 1e6);
+
+/// Most lobes of a sum.
+pub(crate) const MAX_LOBES: usize = 3;
+
+/// Names of all families, in the order of the documentation.
+#[must_use]
+pub fn families() -> Vec<&'static str> {
+    let mut names: Vec<_> = registry::ENTRIES.iter().map(|e| e.name).collect();
+    names.extend([lafortune::NAME, ashikhmin_shirley::NAME]);
+    names.extend(albedo::ENTRIES.iter().map(|e| e.name));
+    names
+}
+
+/// The family called `name` with so many specular lobes.
+///
+/// # Errors
+/// [`FitError::UnknownModel`] and [`FitError::Lobes`].
+pub fn family(name: &str, lobes: usize) -> Result<Box<dyn Family>, FitError> {
+    let expect = |ok: bool, expected: String| {
+        if ok {
+            return Ok(());
+        }
+        Err(FitError::Lobes {
+            model: name.into(),
+            expected,
+            found: lobes,
+        })
+    };
+    let several = || {
+        expect(
+            (1..=MAX_LOBES).contains(&lobes),
+            format!("1 to {MAX_LOBES}"),
+        )
+    };
+    if let Some(entry) = registry::ENTRIES.iter().find(|e| e.name == name) {
+        if entry.has_lobe() {
+            several()?;
+        } else {
+            expect(lobes == 1, "one".into())?;
+        }
+        return Ok(Box::new(registry::Registered::new(entry, lobes)));
+    }
+    if let Some(entry) = albedo::ENTRIES.iter().find(|e| e.name == name) {
+        expect(lobes == 1, "one".into())?;
+        return Ok(Box::new(albedo::Albedo::new(entry)));
+    }
+    match name {
+        lafortune::NAME => {
+            several()?;
+            Ok(Box::new(lafortune::Lafortune::new(lobes)))
+        }
+        ashikhmin_shirley::NAME => {
+            several()?;
+            Ok(Box::new(ashikhmin_shirley::AshikhminShirley::new(lobes)))
+        }
+        _ => Err(FitError::UnknownModel {
+            name: name.into(),
+            known: families().join(", "),
+        }),
+    }
+}
+
+/// `name` of lobe number `lobe`, 0, 1, ...: the first has no number, the second is called 2.
+fn numbered(name: &str, lobe: usize) -> String {
+    if lobe == 0 {
+        name.into()
+    } else {
+        format!("{name}{}", lobe + 1)
+    }
+}
+
+/// An exponent to search for.
+fn exponent(lobe: usize) -> ShapeParameter {
+    ShapeParameter {
+        name: numbered("n", lobe),
+        range: EXPONENT_RANGE,
+        scale: Scale::Log,
+        starts: EXPONENTS.into(),
+    }
+}
+
+/// A reflectance at normal incidence to search for.
+fn reflectance(name: &str, lobe: usize) -> ShapeParameter {
+    ShapeParameter {
+        name: numbered(name, lobe),
+        range: REFLECTANCE_RANGE,
+        scale: Scale::Logit,
+        starts: REFLECTANCES.into(),
+    }
+}
+
+/// A model whose text the families wrote themselves.
+#[expect(
+    clippy::panic,
+    reason = "families keep to the ranges of the registry; tests build every one"
+)]
+fn build<const K: usize>(text: &str) -> ParsedModel<K> {
+    parse_model_n(text).unwrap_or_else(|e| panic!("{text}: {e}"))
+}
+
+/// One weight of every channel as text, `0.1/0.2/0.3`.
+fn channels(weights: &[Vec<f64>], index: usize) -> String {
+    let values: Vec<String> = weights.iter().map(|w| w[index].to_string()).collect();
+    values.join("/")
+}
+
+/// A part without a factor.
+fn whole(text: String, channels: usize) -> Part {
+    Part {
+        text,
+        scale: vec![1.0; channels],
+    }
+}
+
+/// The Lambert lobe of the weights `index`, with what goes beyond an albedo of 1 in the factor.
+fn lambert(weights: &[Vec<f64>], index: usize) -> Part {
+    let largest = weights.iter().map(|w| w[index]).fold(1.0, f64::max);
+    let scaled: Vec<Vec<f64>> = weights.iter().map(|w| vec![w[index] / largest]).collect();
+    Part {
+        text: format!("lambert:kd={}", channels(&scaled, 0)),
+        scale: vec![largest; weights.len()],
+    }
+}
