@@ -25,6 +25,7 @@ pub struct BakedHvt<const N: usize> {
 impl<const N: usize> BakedHvt<N> {
     /// Tabulates the albedos of `brdf` for 46 elevations (and 16 azimuths unless it is isotropic); `sampler` is a table
     /// built for its luminance.
+    #[must_use]
     pub fn new(brdf: &impl Brdf<N>, sampler: Hvt) -> Self {
         let f = |wi: DVec3, wo: DVec3, out: &mut [f64]| out.copy_from_slice(&brdf.eval(wi, wo));
         let symmetry = brdf.symmetry();

@@ -50,6 +50,7 @@ impl<F: Fn(DVec3, DVec3, &mut [f64]) + Sync> ColourTarget<F> {
 /// sums normalise the channels, so that the result is never negative.
 ///
 /// `f` writes f_c(wi, wo) in 1/sr into a slice of `channels` numbers. Channels that reflect nothing do not count.
+#[must_use]
 pub fn colour_floor(
     f: impl Fn(DVec3, DVec3, &mut [f64]) + Sync,
     channels: usize,

@@ -150,6 +150,6 @@ fn slices_of_azimuth_follow_anisotropy() {
         sampler_report(target, &sampler, 1_000),
         sampler_report(target, &averaged, 1_000),
     );
-    assert!(four.mean < 0.05 * three.mean, "{four:?} against {three:?}");
+    assert!(four.mean < 0.15 * three.mean, "{four:?} against {three:?}");
     assert!(four.wasted <= 0.0, "{four:?}");
 }

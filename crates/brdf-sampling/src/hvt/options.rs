@@ -18,7 +18,7 @@ pub enum Preset {
     Reference,
 }
 
-/// How a [`super::Hvt`] is built.
+/// How a [`super::Hvt`] is built. For anisotropic targets `n_b` is doubled (to at most [`MAX_B`]) and `n_a` cut to 5/8.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HvtOptions {
     /// Slices of the viewer's elevation, at least 2.
@@ -65,6 +65,11 @@ impl Preset {
 impl HvtOptions {
     pub(crate) fn shape(&self, turning: Turning) -> Shape {
         let n_phi = self.n_phi.clamp(2, 1 << 8);
+        // lobes longer than wide turn on the chart: azimuths are worth more nodes, by measurement
+        let (n_a, n_b) = match turning {
+            Turning::Isotropic => (self.n_a, self.n_b),
+            _ => (5 * self.n_a / 8, 2 * self.n_b),
+        };
         Shape {
             n_theta: self.n_theta.clamp(2, 1 << 10),
             n_phi: match turning {
@@ -73,8 +78,8 @@ impl HvtOptions {
                 Turning::FullTurn => 2 * n_phi,
             },
             half_turn: turning == Turning::HalfTurn,
-            n_a: self.n_a.clamp(3, 1 << 12),
-            n_b: self.n_b.clamp(1, MAX_B).next_multiple_of(8),
+            n_a: n_a.clamp(3, 1 << 12),
+            n_b: n_b.clamp(1, MAX_B).next_multiple_of(8),
         }
     }
 
