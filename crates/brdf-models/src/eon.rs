@@ -50,8 +50,8 @@ pub(crate) fn build<const N: usize>(values: &Values) -> Built<N> {
 #[inline]
 fn loss(w: DVec3) -> f64 {
     let (mu, si) = (w.z, w.x.hypot(w.y));
-    let linear = si * mu.atan2(si) + si * si * mu
-        - 2.0 / 3.0 * si * mu * (1.0 + si + si * si) / (1.0 + si);
+    let linear =
+        si * mu.atan2(si) + si * si * mu - 2.0 / 3.0 * si * mu * (1.0 + si + si * si) / (1.0 + si);
     (C1 * mu * mu / (1.0 + si) + FRAC_1_PI * linear).max(0.0)
 }
 

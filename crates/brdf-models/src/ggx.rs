@@ -126,11 +126,7 @@ impl<const N: usize> Brdf<N> for Ggx<N> {
             let above = wi.z[k].min(wo.z[k]) > 0.0;
             lobe[k] = if above { 0.5 * d.value / lambda } else { 0.0 };
             cos_d[k] = (0.5 * d.len2.sqrt()).min(1.0);
-            let (x, y, z) = (
-                wi.x[k] - wo.x[k],
-                wi.y[k] - wo.y[k],
-                wi.z[k] - wo.z[k],
-            );
+            let (x, y, z) = (wi.x[k] - wo.x[k], wi.y[k] - wo.y[k], wi.z[k] - wo.z[k]);
             sin2_d[k] = (0.25 * (x * x + y * y + z * z)).min(1.0);
             diffuse[k] = if above {
                 std::f32::consts::FRAC_1_PI

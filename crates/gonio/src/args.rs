@@ -1,7 +1,7 @@
 //! The command line as typed: verbs, flags, help. Nothing here does work.
 
-use crate::verbs::stress::Stress;
 use crate::verbs::converge::Converge;
+use crate::verbs::stress::Stress;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use scene_io::scene::{InterpolationName, SamplerName, SpectrumName};
 use std::path::PathBuf;

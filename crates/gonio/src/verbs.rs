@@ -9,8 +9,8 @@ pub(crate) mod measure;
 pub(crate) mod mix;
 pub(crate) mod plot;
 pub(crate) mod render;
-pub(crate) mod stress;
 pub(crate) mod spectra;
+pub(crate) mod stress;
 
 use crate::args::Cli;
 use crate::output;

@@ -35,7 +35,10 @@ pub(crate) fn viewers() -> Vec<DVec3> {
 /// Lights for a viewer: where lobes have their peaks and flanks, and where formulas divide by little.
 pub(crate) fn lights(wo: DVec3) -> Vec<Named> {
     let mut all = vec![
-        Named { w: wo, what: "wi = wo" },
+        Named {
+            w: wo,
+            what: "wi = wo",
+        },
         // -wo, lifted by what keeps it above the horizon
         Named {
             w: DVec3::new(-wo.x, -wo.y, (-wo.z).max(1e-7)).normalize(),
@@ -45,10 +48,15 @@ pub(crate) fn lights(wo: DVec3) -> Vec<Named> {
             w: DVec3::new(-wo.x, -wo.y, wo.z),
             what: "h at the pole",
         },
-        Named { w: DVec3::Z, what: "wi at the pole" },
+        Named {
+            w: DVec3::Z,
+            what: "wi at the pole",
+        },
     ];
     // half vectors tilted by less and more than any lobe is wide; no round numbers, which critical angles might be
-    for tilt in [1.1e-12, 1.1e-9, 1.1e-6, 1.1e-5, 1.1e-4, 3.3e-4, 1.1e-3, 1.1e-2, 0.11, 0.3, 0.8] {
+    for tilt in [
+        1.1e-12, 1.1e-9, 1.1e-6, 1.1e-5, 1.1e-4, 3.3e-4, 1.1e-3, 1.1e-2, 0.11, 0.3, 0.8,
+    ] {
         for azimuth in [0.0, 2.0, 4.0] {
             let h = direction(tilt, azimuth);
             all.push(Named {

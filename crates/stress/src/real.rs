@@ -99,15 +99,27 @@ impl Real {
     }
 
     pub(crate) fn abs(&self) -> Self {
-        if self.is_positive() { self.clone() } else { -self }
+        if self.is_positive() {
+            self.clone()
+        } else {
+            -self
+        }
     }
 
     pub(crate) fn max(&self, other: &Self) -> Self {
-        if self.0 < other.0 { other.clone() } else { self.clone() }
+        if self.0 < other.0 {
+            other.clone()
+        } else {
+            self.clone()
+        }
     }
 
     pub(crate) fn min(&self, other: &Self) -> Self {
-        if self.0 < other.0 { self.clone() } else { other.clone() }
+        if self.0 < other.0 {
+            self.clone()
+        } else {
+            other.clone()
+        }
     }
 }
 
@@ -228,7 +240,10 @@ mod tests {
         let tiny = 1.0 - (1.0 - Real::new(1e-30));
         assert!((tiny.to_f64() / 1e-30 - 1.0).abs() < 1e-12, "{tiny:?}");
         let square = 1.0 - Real::new(1e-9).cos().sqr();
-        assert!((square.sqrt().to_f64() / 1e-9 - 1.0).abs() < 1e-15, "{square:?}");
+        assert!(
+            (square.sqrt().to_f64() / 1e-9 - 1.0).abs() < 1e-15,
+            "{square:?}"
+        );
     }
 
     #[test]

@@ -39,8 +39,7 @@ pub(crate) fn of(object: Object<1>) -> Option<Scene<1>> {
 /// `shape` moved, scaled first.
 pub(crate) fn placed(shape: Shape, scale: f64, shift: DVec3) -> Object<1> {
     Object {
-        transform: DAffine3::from_translation(shift)
-            * DAffine3::from_scale(DVec3::splat(scale)),
+        transform: DAffine3::from_translation(shift) * DAffine3::from_scale(DVec3::splat(scale)),
         ..Object::new(shape, 0)
     }
 }

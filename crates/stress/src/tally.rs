@@ -37,7 +37,9 @@ impl Tally {
     pub fn signed(&mut self, value: f64, reference: f64, floor: f64, place: impl Fn() -> String) {
         if self.finite(value, &place) {
             let error = (value - reference).abs() / reference.abs().max(floor);
-            self.error(error, || format!("{}: {value:e} for {reference:e}", place()));
+            self.error(error, || {
+                format!("{}: {value:e} for {reference:e}", place())
+            });
         }
     }
 
@@ -92,7 +94,10 @@ mod tests {
         tally.value(1.0, 1.0, 0.0, || "fine".into());
         tally.value(1.1, 1.0, 0.0, || "off".into());
         tally.value(1.01, 1.0, 0.0, || "near".into());
-        assert!((tally.worst - 0.1).abs() < 1e-12 && tally.place.starts_with("off"), "{tally:?}");
+        assert!(
+            (tally.worst - 0.1).abs() < 1e-12 && tally.place.starts_with("off"),
+            "{tally:?}"
+        );
         assert_eq!(tally.count, 3);
     }
 
@@ -102,10 +107,16 @@ mod tests {
         for value in [f64::NAN, f64::INFINITY, -1.0, 1e-310, 1.0] {
             tally.sound(value, || "x".into());
         }
-        assert_eq!([tally.nan, tally.inf, tally.negative, tally.denormal], [1; 4]);
+        assert_eq!(
+            [tally.nan, tally.inf, tally.negative, tally.denormal],
+            [1; 4]
+        );
         assert!(tally.broken.contains("NaN"), "{tally:?}");
         tally.value(1.0, f64::NAN, 0.0, || "y".into());
-        assert!(tally.worst.is_infinite(), "a reference that is no number: {tally:?}");
+        assert!(
+            tally.worst.is_infinite(),
+            "a reference that is no number: {tally:?}"
+        );
     }
 
     #[test]

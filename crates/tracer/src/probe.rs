@@ -44,7 +44,10 @@ impl Meeting {
     fn start(&self, d: Vec3) -> (Vec3, u32) {
         let back = self.normal.dot(d) < 0.0;
         let side = if back { -self.normal } else { self.normal };
-        (self.point + side * self.error, 2 * self.leaves + u32::from(back))
+        (
+            self.point + side * self.error,
+            2 * self.leaves + u32::from(back),
+        )
     }
 }
 

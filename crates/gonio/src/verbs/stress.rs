@@ -48,7 +48,12 @@ pub(crate) fn run(context: &Context, args: &Stress) -> Result<()> {
     })?;
     let red: Vec<_> = rows.iter().filter(|r| !r.ok()).collect();
     if let Some(first) = red.first() {
-        bail!("{} of {} rows are red, first {}", red.len(), rows.len(), first.case);
+        bail!(
+            "{} of {} rows are red, first {}",
+            red.len(),
+            rows.len(),
+            first.case
+        );
     }
     Ok(())
 }
@@ -73,7 +78,11 @@ fn described(row: &Row) -> Value {
 }
 
 fn text(rows: &[Row], out: &mut String) -> fmt::Result {
-    writeln!(out, "{:<42} {:>9} {:>7} {:>9}  nan/inf/neg", "case", "worst", "bound", "checks")?;
+    writeln!(
+        out,
+        "{:<42} {:>9} {:>7} {:>9}  nan/inf/neg",
+        "case", "worst", "bound", "checks"
+    )?;
     for row in rows {
         let t = &row.tally;
         let mark = if row.ok() { "" } else { "  RED" };
@@ -94,7 +103,10 @@ fn text(rows: &[Row], out: &mut String) -> fmt::Result {
 }
 
 fn markdown(rows: &[Row], out: &mut String) -> fmt::Result {
-    writeln!(out, "| case | worst relative error | bound | checks | why this bound |\n|---|---|---|---|---|")?;
+    writeln!(
+        out,
+        "| case | worst relative error | bound | checks | why this bound |\n|---|---|---|---|---|"
+    )?;
     for row in rows {
         let t = &row.tally;
         let mark = if row.ok() { "" } else { " **red**" };

@@ -22,11 +22,15 @@ pub(super) fn cases() -> Vec<Case> {
                 }
             }
             let step = effort.pick(911, 13);
-            let pairs = colours.iter().flat_map(|a| colours.iter().map(move |b| (a, b)));
+            let pairs = colours
+                .iter()
+                .flat_map(|a| colours.iter().map(move |b| (a, b)));
             for (a, b) in pairs.step_by(step) {
                 let place = || format!("{a:?} and {b:?}");
                 let value = ciede2000(*a, *b);
-                tally.value(value, ciede2000(*b, *a), 1e-4, || format!("swapped, {}", place()));
+                tally.value(value, ciede2000(*b, *a), 1e-4, || {
+                    format!("swapped, {}", place())
+                });
                 if let Some(exact) = reference(*a, *b) {
                     tally.value(value, exact.to_f64(), 1e-4, place);
                 }

@@ -36,7 +36,9 @@ pub(super) fn cases() -> Vec<Case> {
                     let sin2 = (1.0 - &exact) * (1.0 + &exact);
                     let value = fresnel.eval_at(c, sin2.to_f64())[0];
                     let reference = unpolarised(n, k, &exact, &sin2).to_f64();
-                    tally.value(value, reference, 1e-25, || format!("n {n}, k {k}, cos {c:e}"));
+                    tally.value(value, reference, 1e-25, || {
+                        format!("n {n}, k {k}, cos {c:e}")
+                    });
                 }
             }
         },

@@ -63,7 +63,12 @@ pub(super) fn cases() -> Vec<Case> {
         ),
         Case::new("light/Sphere/samples", 2e-3, SAMPLES, |_, t| {
             each_angle(t, |deg, t| {
-                samples(seen(unit_sphere(), deg.to_radians().sin()), -DVec3::X, t, deg);
+                samples(
+                    seen(unit_sphere(), deg.to_radians().sin()),
+                    -DVec3::X,
+                    t,
+                    deg,
+                );
             });
         }),
         Case::new("light/Rect/samples", 2e-3, SAMPLES, |_, t| {
@@ -134,7 +139,14 @@ fn rectangle(w: f64, h: f64, effort: Effort, tally: &mut Tally) {
     for p in [DVec3::Z, DVec3::new(0.4 * w, 0.3 * h, 1.0)] {
         let [a, b, c, d] = [[-w, -h], [w, -h], [w, h], [-w, h]].map(|[x, y]| DVec3::new(x, y, 0.0));
         let exact = triangle_angle([a, b, c], p) + triangle_angle([a, c, d], p);
-        solid_angle(seen(rect(w, h), 1.0), p, exact, n, tally, &format!("{w} x {h}"));
+        solid_angle(
+            seen(rect(w, h), 1.0),
+            p,
+            exact,
+            n,
+            tally,
+            &format!("{w} x {h}"),
+        );
     }
 }
 
@@ -187,19 +199,26 @@ fn samples(scene: Option<Scene<1>>, from: DVec3, tally: &mut Tally, deg: f64) {
         };
         let place = || format!("{deg} deg, u {u:?}, wi {}", s.wi);
         tally.sound(f64::from(s.pdf), || format!("pdf, {}", place()));
-        tally.error(f64::from((s.wi.length() - 1.0).abs()), || format!("length, {}", place()));
+        tally.error(f64::from((s.wi.length() - 1.0).abs()), || {
+            format!("length, {}", place())
+        });
         // on the very rim rounding decides whether the light is met
         let inside = u.iter().all(|u| (0.01..0.985).contains(u));
         let pdf = scene.light_pdf(0, p, s.wi);
         if inside || pdf > 0.0 {
-            tally.value(f64::from(s.pdf), f64::from(pdf), 0.0, || format!("pdf again, {}", place()));
+            tally.value(f64::from(s.pdf), f64::from(pdf), 0.0, || {
+                format!("pdf again, {}", place())
+            });
         }
     }
 }
 
 fn far_away(tally: &mut Tally) {
     let mut environments = vec![(constant(1.0), "constant")];
-    for (at, what) in [(0, "bright at the pole"), (16 * 64 + 63, "bright at the horizon")] {
+    for (at, what) in [
+        (0, "bright at the pole"),
+        (16 * 64 + 63, "bright at the horizon"),
+    ] {
         let mut pixels = vec![Samples([0.0_f32]); 64 * 32];
         pixels[at] = Samples([1e6]);
         let image = EnvironmentImage {

@@ -138,7 +138,9 @@ fn sampler(info: &'static ModelInfo, _: Effort, tally: &mut Tally) {
                 let place = || format!("{model}, wo {wo}, u {u} {v}, wi {}", s.wi);
                 let pdf = model.built.sampler.pdf(s.wi, wo);
                 tally.value(s.pdf, pdf, FLOOR, place);
-                tally.error((s.wi.length() - 1.0).abs(), || format!("length at {}", place()));
+                tally.error((s.wi.length() - 1.0).abs(), || {
+                    format!("length at {}", place())
+                });
                 for f in model.built.brdf.eval(s.wi, wo) {
                     tally.sound(f * s.wi.z / s.pdf, || format!("weight at {}", place()));
                 }
@@ -171,14 +173,23 @@ fn sampler_lanes(info: &'static ModelInfo, _: Effort, tally: &mut Tally) {
 /// Lane `k` of what a material sampled.
 fn sampled(model: &ParsedModel<3>, packet: &SamplePacket<3>, k: usize, tally: &mut Tally) {
     let (wi, wo) = (packet.wi.get(k).as_dvec3(), packet.wo.get(k).as_dvec3());
-    let place = || format!("{model}, wo {wo}, u {} {}, wi {wi}", packet.u[0][k], packet.u[1][k]);
+    let place = || {
+        format!(
+            "{model}, wo {wo}, u {} {}, wi {wi}",
+            packet.u[0][k], packet.u[1][k]
+        )
+    };
     let pdf = f64::from(packet.pdf[k]);
     tally.sound(pdf, || format!("pdf at {}", place()));
     for c in 0..3 {
-        tally.sound(f64::from(packet.weight[c][k]), || format!("weight at {}", place()));
+        tally.sound(f64::from(packet.weight[c][k]), || {
+            format!("weight at {}", place())
+        });
     }
     if pdf > 0.0 {
         tally.value(pdf, model.built.sampler.pdf(wi, wo), FLOOR_F32, place);
-        tally.error((wi.length() - 1.0).abs(), || format!("length at {}", place()));
+        tally.error((wi.length() - 1.0).abs(), || {
+            format!("length at {}", place())
+        });
     }
 }

@@ -52,7 +52,11 @@ fn picture(radiance: f32, scale: f64) -> Option<Vec<f64>> {
     d.camera.eye *= scale;
     d.camera.target *= scale;
     d.objects.push(placed(floor(2.0), scale, DVec3::ZERO));
-    let light = placed(unit_sphere(), 0.2 * scale, DVec3::new(0.6, 1.0, 0.2) * scale);
+    let light = placed(
+        unit_sphere(),
+        0.2 * scale,
+        DVec3::new(0.6, 1.0, 0.2) * scale,
+    );
     d.objects.push(shining(light, radiance));
     rendered(d, [8, 8], &SETTINGS)
 }
@@ -71,7 +75,9 @@ fn radiance(tally: &mut Tally) {
         let picture = picture(l, 1.0).unwrap_or_default();
         for (i, (value, exact)) in picture.iter().zip(&reference).enumerate() {
             let value = value / f64::from(l);
-            tally.value(value, *exact, 1e-6, || format!("radiance 1e{exponent}, pixel {i}"));
+            tally.value(value, *exact, 1e-6, || {
+                format!("radiance 1e{exponent}, pixel {i}")
+            });
         }
     }
 }
@@ -81,16 +87,29 @@ fn sizes(tally: &mut Tally) {
     let sum: f64 = reference.iter().sum();
     for scale in [1e-6, 1e-3, 1e3, 1e6] {
         let picture = picture(1.0, scale).unwrap_or_default();
-        let off: f64 = picture.iter().zip(&reference).map(|(a, b)| (a - b).abs()).sum();
+        let off: f64 = picture
+            .iter()
+            .zip(&reference)
+            .map(|(a, b)| (a - b).abs())
+            .sum();
         let missing = picture.is_empty() || reference.is_empty();
         let error = if missing { f64::INFINITY } else { off / sum };
         tally.error(error, || format!("scale {scale:e}"));
-        picture.iter().for_each(|&v| tally.sound(v, || format!("scale {scale:e}")));
+        picture
+            .iter()
+            .for_each(|&v| tally.sound(v, || format!("scale {scale:e}")));
     }
 }
 
 fn furnace(tally: &mut Tally) {
-    for (shift, radius) in [(0.0, 1.0), (1e3, 1.0), (1e6, 1.0), (0.0, 1e-6), (0.0, 1e6), (1e6, 1e3)] {
+    for (shift, radius) in [
+        (0.0, 1.0),
+        (1e3, 1.0),
+        (1e6, 1.0),
+        (0.0, 1e-6),
+        (0.0, 1e6),
+        (1e6, 1e3),
+    ] {
         let at = DVec3::new(1.0, 0.5, -1.0) * shift;
         let value = empty(1.0).and_then(|mut d| {
             d.camera.eye = at + DVec3::new(0.3, 0.9, 0.4) * (5.0 * radius);

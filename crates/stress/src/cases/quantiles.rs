@@ -80,7 +80,9 @@ pub(super) fn cases() -> Vec<Case> {
                     let values = (0..n).map(|k| mean + [-1.0, 0.0, 1.0, 0.0][k as usize % 4]);
                     let w: Welford = values.collect();
                     let exact = 0.5 * f64::from(n) / f64::from(n - 1);
-                    tally.value(w.variance(), exact, 0.0, || format!("variance, mean {mean:e}"));
+                    tally.value(w.variance(), exact, 0.0, || {
+                        format!("variance, mean {mean:e}")
+                    });
                     tally.signed(w.mean(), mean, 1.0, || format!("mean {mean:e}"));
                 }
             },

@@ -32,7 +32,12 @@ pub(super) const SAMPLERS: &[Kind] = &[
     },
     Kind {
         name: "Hvt",
-        build: |f| Box::new(Hvt::new(Target::new(&|i, o| f(i, o)), Preset::Tiny.options())),
+        build: |f| {
+            Box::new(Hvt::new(
+                Target::new(&|i, o| f(i, o)),
+                Preset::Tiny.options(),
+            ))
+        },
     },
     Kind {
         name: "Inversion",
@@ -125,7 +130,9 @@ fn targets(effort: Effort) -> Vec<(String, SharedTarget)> {
             all.push((text.into(), Arc::new(move |i, o| brdf.eval(i, o)[1])));
         }
     }
-    let grids = KINDS.iter().filter(|k| k.name == "Gridded linear" || k.name == "Gridded nearest");
+    let grids = KINDS
+        .iter()
+        .filter(|k| k.name == "Gridded linear" || k.name == "Gridded nearest");
     for kind in grids {
         for content in [Content::Zero, Content::Spike] {
             if let Some(table) = (kind.make)(content) {
@@ -178,7 +185,9 @@ fn scalars(sampler: &dyn DirectionSampler, target: &str, tally: &mut Tally) {
             if inside([x, y]) && known(s.wi, wo, 1e-6) {
                 tally.value(s.pdf, sampler.pdf(s.wi, wo), 1e-9, place);
             }
-            tally.error((s.wi.length() - 1.0).abs(), || format!("length, {}", place()));
+            tally.error((s.wi.length() - 1.0).abs(), || {
+                format!("length, {}", place())
+            });
             let below = if s.wi.z > 0.0 { 0.0 } else { 1.0 };
             tally.error(below, || format!("below the horizon, {}", place()));
         }
@@ -186,7 +195,10 @@ fn scalars(sampler: &dyn DirectionSampler, target: &str, tally: &mut Tally) {
 }
 
 fn lanes(sampler: &dyn DirectionSampler, target: &str, tally: &mut Tally) {
-    let u: Vec<_> = US[..5].iter().flat_map(|x| US[..5].iter().map(move |y| (*x, *y))).collect();
+    let u: Vec<_> = US[..5]
+        .iter()
+        .flat_map(|x| US[..5].iter().map(move |y| (*x, *y)))
+        .collect();
     for wo in viewers() {
         for chunk in u.chunks(LANES) {
             let (mut viewer, mut both) = (Lanes3::ZERO, [[0.0; LANES]; 2]);

@@ -215,7 +215,9 @@ fn slivers(effort: Effort, tally: &mut Tally) {
             // straight down at its middle: both ends of the ray have the same x and z, which are exact
             let o = Vec3::new(x as f32, 1.0, -0.5 * thin);
             let met = scene.meet(o, -Vec3::Y).is_some();
-            tally.error(if met { 0.0 } else { 1.0 }, || format!("thin {thin:e}, o {o}"));
+            tally.error(if met { 0.0 } else { 1.0 }, || {
+                format!("thin {thin:e}, o {o}")
+            });
         }
     }
 }

@@ -85,7 +85,11 @@ pub(super) fn cases() -> Vec<Case> {
         .iter()
         .flat_map(|kind| {
             [Content::Zero, Content::Spike].map(|content| {
-                let what = if content == Content::Zero { "zero" } else { "spike" };
+                let what = if content == Content::Zero {
+                    "zero"
+                } else {
+                    "spike"
+                };
                 Case::new(
                     format!("table/{}/{what}", kind.name),
                     1e-6,

@@ -193,7 +193,9 @@ fn one_dimension(effort: Effort, tally: &mut Tally) {
         }
     }
     let refused = Piecewise1::constant(&vec![0.0; n]).is_err();
-    tally.error(if refused { 0.0 } else { 1.0 }, || "all zero is refused".into());
+    tally.error(if refused { 0.0 } else { 1.0 }, || {
+        "all zero is refused".into()
+    });
 }
 
 fn two_dimensions(effort: Effort, tally: &mut Tally) {

@@ -117,7 +117,11 @@ pub(crate) const REFERENCES: &[Reference] = &[
     reference("ward-cheap", ward::cheap, ward::cheap_pdf),
     reference("ward-duer", ward::duer, ward::pdf),
     reference("ward-gmd", ward::bounded, ward::pdf),
-    reference("cook-torrance", microfacet::cook_torrance, microfacet::cook_torrance_pdf),
+    reference(
+        "cook-torrance",
+        microfacet::cook_torrance,
+        microfacet::cook_torrance_pdf,
+    ),
     reference("ggx", microfacet::ggx, microfacet::ggx_pdf),
 ];
 
@@ -173,7 +177,11 @@ impl<'a> Args<'a> {
     }
 
     /// What samplers call the share of the lobe, from its energy per channel: s/(s + d) of the channel sums.
-    pub(crate) fn share(&self, specular: impl Fn(usize) -> Real, diffuse: impl Fn(usize) -> Real) -> Real {
+    pub(crate) fn share(
+        &self,
+        specular: impl Fn(usize) -> Real,
+        diffuse: impl Fn(usize) -> Real,
+    ) -> Real {
         let sum = |f: &dyn Fn(usize) -> Real| f(0) + f(1) + f(2);
         let (s, d) = (sum(&specular), sum(&diffuse));
         let total = &s + &d;

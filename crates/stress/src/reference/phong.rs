@@ -69,7 +69,9 @@ fn lobes(a: &Args<'_>) -> impl Iterator<Item = [String; 5]> {
             _ => format!("{name}{k}"),
         })
     };
-    (1..).map(named).take_while(|[ks, ..]| a.values.is_given(ks))
+    (1..)
+        .map(named)
+        .take_while(|[ks, ..]| a.values.is_given(ks))
 }
 
 pub(super) fn lafortune(a: &Args<'_>) -> Real {
@@ -130,8 +132,8 @@ fn schlick(f0: f64, c: &Real) -> Real {
 
 pub(super) fn ashikhmin(a: &Args<'_>) -> Real {
     let (ks, kd) = (a.own("ks"), a.own("kd"));
-    let lobe = ashikhmin_half(a) / 4.0 * schlick(ks, &a.cos_d())
-        / (a.cos_d() * a.wi.z.max(&a.wo.z));
+    let lobe =
+        ashikhmin_half(a) / 4.0 * schlick(ks, &a.cos_d()) / (a.cos_d() * a.wi.z.max(&a.wo.z));
     let base = |w: &Vector| 1.0 - (1.0 - &w.z * 0.5).pow(5.0);
     let under = 28.0 * Real::new(kd) * (1.0 - Real::new(ks)) / (23.0 * Real::pi());
     lobe + under * base(&a.wi) * base(&a.wo)
