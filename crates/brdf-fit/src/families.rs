@@ -50,19 +50,19 @@ pub fn family(name: &str, lobes: usize) -> Result<Box<dyn Family>, FitError> {
     let several = || {
         expect(
             (1..=MAX_LOBES).contains(&lobes),
-            format!("1 to {MAX_LOBES}"),
+            format!("1 to {MAX_LOBES} lobes"),
         )
     };
     if let Some(entry) = registry::ENTRIES.iter().find(|e| e.name == name) {
         if entry.has_lobe() {
             several()?;
         } else {
-            expect(lobes == 1, "one".into())?;
+            expect(lobes == 1, "one lobe".into())?;
         }
         return Ok(Box::new(registry::Registered::new(entry, lobes)));
     }
     if let Some(entry) = albedo::ENTRIES.iter().find(|e| e.name == name) {
-        expect(lobes == 1, "one".into())?;
+        expect(lobes == 1, "one lobe".into())?;
         return Ok(Box::new(albedo::Albedo::new(entry)));
     }
     match name {

@@ -34,6 +34,7 @@ pub(crate) enum Verb {
     Convert(Convert),
     Measure(Measure),
     Compare(Compare),
+    Fit(crate::verbs::fit::Fit),
 }
 
 /// Render a scene to EXR and PNG, with its own error estimate.

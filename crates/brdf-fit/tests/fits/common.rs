@@ -1,6 +1,5 @@
 //! Data with known truth, and fitted models as reflectance.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
 use brdf::{Brdf, Measured, Status};
 use brdf_fit::{Estimate, Fit, Samples};

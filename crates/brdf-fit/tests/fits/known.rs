@@ -1,9 +1,7 @@
 //! Fits of data whose truth is known.
 
-mod common;
-
+use crate::common::{Sum, measured, of_model, truth};
 use brdf_fit::{FitData, FitError, Metric, Pair, Samples, error_of, families, family, fit};
-use common::{Sum, measured, of_model, truth};
 use glam::DVec3;
 
 /// A text for every family, and its values under the names a fit gives them.
@@ -228,7 +226,7 @@ fn what_cannot_be_fitted_is_refused_in_one_line() {
     );
     assert_eq!(
         message(family("eon", 2).err().unwrap()),
-        "model `eon`: expected one lobes, found 2"
+        "model `eon`: expected one lobe, found 2"
     );
     let ward = family("ward", 1).unwrap();
     let black = Samples::on_grid([10, 10, 10], 3, |_, _, _| true);

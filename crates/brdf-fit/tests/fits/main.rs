@@ -1,0 +1,8 @@
+//! Fits and their exports.
+
+#[cfg(test)]
+mod common;
+#[cfg(test)]
+mod exports;
+#[cfg(test)]
+mod known;
