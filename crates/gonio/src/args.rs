@@ -1,5 +1,7 @@
 //! The command line as typed: verbs, flags, help. Nothing here does work.
 
+use crate::verbs::converge::Converge;
+use crate::verbs::fit::Fit;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use scene_io::scene::{InterpolationName, SamplerName};
 use std::path::PathBuf;
@@ -34,7 +36,8 @@ pub(crate) enum Verb {
     Convert(Convert),
     Measure(Measure),
     Compare(Compare),
-    Fit(crate::verbs::fit::Fit),
+    Fit(Fit),
+    Converge(Converge),
 }
 
 /// Render a scene to EXR and PNG, with its own error estimate.
@@ -283,7 +286,7 @@ fn parse_not_negative(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "expected a number, 0 or more".into())
 }
 
-fn parse_size(text: &str) -> Result<(u32, u32), String> {
+pub(crate) fn parse_size(text: &str) -> Result<(u32, u32), String> {
     let sides = text
         .split_once('x')
         .and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));

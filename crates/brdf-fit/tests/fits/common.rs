@@ -1,6 +1,5 @@
 //! Data with known truth, and fitted models as reflectance.
 
-
 use brdf::{Brdf, Measured, Status};
 use brdf_fit::{Estimate, Fit, Samples};
 use brdf_measure::{Instrument, measure_merl};

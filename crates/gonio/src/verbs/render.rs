@@ -6,6 +6,7 @@ mod report;
 use super::Context;
 use crate::args::Render;
 use crate::output::say;
+use crate::process;
 use anyhow::{Context as _, Result};
 use progress::Watch;
 use report::Report;
@@ -77,14 +78,14 @@ fn trace(built: &BuiltScene, context: &Context) -> Result<Traced> {
         u64::from(width) * u64::from(height) * u64::from(built.settings.spp),
         context.json,
     )?;
-    let (start, cpu) = (Instant::now(), progress::cpu_seconds());
+    let (start, cpu) = (Instant::now(), process::cpu_seconds());
     let stats = tracer::render(&built.scene, &built.settings, &mut film, &watch)?;
     watch.finish();
     Ok(Traced {
         film,
         stats,
         seconds: start.elapsed().as_secs_f64(),
-        cpu_seconds: progress::cpu_seconds() - cpu,
+        cpu_seconds: process::cpu_seconds() - cpu,
         interrupted: watch.interrupted(),
     })
 }

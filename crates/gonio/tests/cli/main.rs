@@ -5,6 +5,8 @@ mod broken;
 #[cfg(test)]
 mod chain;
 #[cfg(test)]
+mod converge;
+#[cfg(test)]
 mod data;
 #[cfg(test)]
 mod exact;

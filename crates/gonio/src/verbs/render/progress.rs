@@ -1,7 +1,8 @@
 //! What a person sees while a picture is made, and how they stop it.
 
 use crate::output::say;
-use anyhow::{Context as _, Result};
+use crate::process;
+use anyhow::Result;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::sync::Arc;
@@ -22,9 +23,7 @@ pub(super) struct Watch {
 impl Watch {
     /// `total` paths; `quiet` shows nothing unless stderr is a terminal.
     pub(super) fn new(total: u64, quiet: bool) -> Result<Self> {
-        let stop = Arc::new(AtomicBool::new(false));
-        let flag = Arc::clone(&stop);
-        ctrlc::set_handler(move || interrupt(&flag)).context("cannot watch for Ctrl-C")?;
+        let stop = process::watch_interrupts()?;
         let terminal = std::io::stderr().is_terminal();
         let bar = if terminal {
             ProgressBar::new(total)
@@ -64,30 +63,5 @@ impl<const N: usize> Progress<N> for Watch {
         if self.plain && tenth(before + paths) > tenth(before) {
             say(format_args!("rendered {} %", tenth(before + paths) * 10));
         }
-    }
-}
-
-/// The first Ctrl-C asks the render to end, the second ends the program: with 130, as shells do for signal 2.
-#[expect(
-    clippy::exit,
-    reason = "whoever interrupts twice does not want to wait"
-)]
-fn interrupt(stop: &AtomicBool) {
-    if stop.swap(true, Ordering::Relaxed) {
-        std::process::exit(130);
-    }
-    say("interrupted: finishing the tiles at hand; once more ends the program at once");
-}
-
-/// Seconds of processor time this process has used, all threads; 0 where the system does not say.
-pub(super) fn cpu_seconds() -> f64 {
-    #[cfg(unix)]
-    {
-        let time = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
-        time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
-    }
-    #[cfg(not(unix))]
-    {
-        0.0
     }
 }
