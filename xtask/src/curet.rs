@@ -6,14 +6,22 @@ use brdf_fit::{FitData, Metric, Pair, Samples, family, fit};
 use std::path::{Path, PathBuf};
 
 /// The models, compared sample by sample.
-const MODELS: [&str; 3] = ["lambert", "oren-nayar", "eon"];
+const MODELS: [&str; 5] = [
+    "lambert",
+    "oren-nayar",
+    "eon",
+    "koenderink-2",
+    "koenderink-8",
+];
 
 pub(crate) fn run() -> Result<()> {
     let data = std::env::var_os("GONIO_DATA").context("set GONIO_DATA")?;
     let folder = PathBuf::from(data).join("curet");
     let pairs = pairs(&folder.join("table.txt"))?;
-    println!("| sample | black | lambert | oren-nayar | sigma | kd | eon |");
-    println!("|---|---|---|---|---|---|---|");
+    println!(
+        "| sample | black | lambert | oren-nayar | sigma | kd | eon | koenderink-2 | koenderink-8 |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|");
     let mut better = 0;
     let samples = rows(&folder.join("abrdf.dat"), 1 + pairs.len())?;
     for row in &samples {
@@ -34,7 +42,7 @@ pub(crate) fn run() -> Result<()> {
         let [sigma, kd] = [&fits[1].estimates[0], &fits[1].estimates[1]];
         better += u32::from(fits[1].error < fits[0].error);
         println!(
-            "| {} | {:.4} | {:.4} | {:.4} | {:.3} ({:.3} to {:.3}) | {:.3} ({:.3} to {:.3}) | {:.4} |",
+            "| {} | {:.4} | {:.4} | {:.4} | {:.3} ({:.3} to {:.3}) | {:.3} ({:.3} to {:.3}) | {:.4} | {:.4} | {:.4} |",
             row[0],
             (light / weight).sqrt(),
             fits[0].error,
@@ -45,7 +53,9 @@ pub(crate) fn run() -> Result<()> {
             kd.value,
             kd.ci.0,
             kd.ci.1,
-            fits[2].error
+            fits[2].error,
+            fits[3].error,
+            fits[4].error
         );
     }
     println!(

@@ -15,17 +15,11 @@ pub(super) fn text(parts: &[Part]) -> Option<String> {
             std::array::from_fn(|c| scale[c] * v.get(c).or(v.first()).copied().unwrap_or(0.0))
         };
         let name = parsed.info.name;
-        if name != "ashikhmin-shirley" {
-            let kd = rgb(weight("kd").map(|k| k * std::f64::consts::FRAC_1_PI), ", ");
-            body.push_str(&format!("    f += vec3({kd});\n"));
-        }
+        let kd = rgb(weight("kd").map(|k| k * std::f64::consts::FRAC_1_PI), ", ");
+        body.push_str(&format!("    f += vec3({kd});\n"));
         match name {
             "lambert" => {}
             "lafortune" => lafortune(&parsed.values, weight, &mut body),
-            "ashikhmin-shirley" => {
-                let lobe = lobe(name, &parsed.values)?;
-                body.push_str(&format!("    f += vec3({}) * {lobe};\n", rgb(scale, ", ")));
-            }
             _ => {
                 let lobe = lobe(name, &parsed.values)?;
                 let ks = rgb(weight("ks"), ", ");
@@ -91,8 +85,8 @@ fn lobe(name: &str, values: &Values) -> Option<String> {
             let (a, index) = (at("alpha")?, index(at("f0")?));
             format!("fresnel(cd, {index:.7}) * ggx(wi, wo, h, {a:.7})")
         }
-        "ashikhmin-shirley" => {
-            let (n, f0) = (n()?, at("ks")?);
+        "ashikhmin-lobe" => {
+            let (n, f0) = (n()?, at("f0")?);
             let scale = (n + 1.0) / (8.0 * std::f64::consts::PI);
             format!(
                 "{scale:.7} * pow(hz, {n:.7}) * ({f0:.7} + {:.7} * pow(1.0 - cd, 5.0)) / (cd * max(ci, co))",

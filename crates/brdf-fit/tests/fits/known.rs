@@ -40,7 +40,32 @@ const TRUTHS: &[(&str, &str)] = &[
         "lafortune",
         "lafortune:ks=0.2/0.15/0.1,n=25,cx=-1,cz=0.8,kd=0.3/0.2/0.1",
     ),
-    ("ashikhmin-shirley", "ashikhmin-shirley:n=60,ks=0.2,kd=0"),
+    (
+        "ashikhmin-lobe",
+        "ashikhmin-lobe:n=60,f0=0.2,ks=0.9/0.6/0.3,kd=0.3/0.2/0.1",
+    ),
+    (
+        "cook-torrance-smith",
+        "cook-torrance-smith:m=0.2,f0=0.06,ks=0.8,kd=0.3/0.2/0.1",
+    ),
+    (
+        "he",
+        "he:sigma=0.3,tau=3,f0=0.1,mirror=0,ks=0.9/0.6/0.3,kd=0.3/0.2/0.1",
+    ),
+    ("abc", "abc:a=5/4/3,b=100,c=1.5,n=1.6,kd=0.3/0.2/0.1"),
+    ("abg", "abg:a=0.02/0.015/0.01,b=0.01,g=2,kd=0.3/0.2/0.1"),
+    (
+        "harvey-shack",
+        "harvey-shack:b0=2/1/0.5,l=0.1,s=-2.5,kd=0.3/0.2/0.1",
+    ),
+    (
+        "k-correlation",
+        "k-correlation:b=2,s=3,ks=0.9/0.6/0.3,kd=0.3/0.2/0.1",
+    ),
+    (
+        "koenderink-2",
+        "koenderink:kd=0.6/0.4/0.2,a=0.1,a2=-0.05,a3=0.08,a4=0.02",
+    ),
 ];
 
 #[test]
