@@ -77,17 +77,27 @@ fn every_family_has_a_truth() {
 
 #[test]
 fn data_without_noise_give_the_parameters_back() {
-    for (name, text) in TRUTHS {
-        let data = FitData::new(measured(text, [16, 16, 32], 0.0, 0), Metric::Ngan);
-        let fit = fit(&*family(name, 1).unwrap(), &data).unwrap();
-        for estimate in &fit.estimates {
-            let expected = truth(text, estimate);
-            // the table holds single precision: 6e-8 of every value, more of what little depends on a parameter
-            assert!(
-                (estimate.value - expected).abs() < 2e-5 * expected.abs() + 1e-7,
-                "{text}: {estimate:?}, expected {expected}"
-            );
-        }
+    for (name, text) in TRUTHS.iter().filter(|(name, _)| *name != "he") {
+        gives_back(name, text);
+    }
+}
+
+#[test]
+fn slow_he_gives_its_parameters_back() {
+    let (name, text) = TRUTHS.iter().find(|(name, _)| *name == "he").unwrap();
+    gives_back(name, text);
+}
+
+fn gives_back(name: &str, text: &str) {
+    let data = FitData::new(measured(text, [16, 16, 32], 0.0, 0), Metric::Ngan);
+    let fit = fit(&*family(name, 1).unwrap(), &data).unwrap();
+    for estimate in &fit.estimates {
+        let expected = truth(text, estimate);
+        // the table holds single precision: 6e-8 of every value, more of what little depends on a parameter
+        assert!(
+            (estimate.value - expected).abs() < 2e-5 * expected.abs() + 1e-7,
+            "{text}: {estimate:?}, expected {expected}"
+        );
     }
 }
 
@@ -95,7 +105,7 @@ fn data_without_noise_give_the_parameters_back() {
 fn every_metric_gives_the_parameters_back() {
     let (name, text) = TRUTHS[4];
     for metric in Metric::ALL {
-        let data = FitData::new(measured(text, [12, 12, 24], 0.0, 0), metric);
+        let data = FitData::new(measured(text, [10, 10, 16], 0.0, 0), metric);
         let fit = fit(&*family(name, 1).unwrap(), &data).unwrap();
         for estimate in &fit.estimates {
             let expected = truth(text, estimate);
@@ -131,7 +141,7 @@ fn each_metric_is_smallest_where_it_was_minimised() {
 
 #[test]
 fn the_text_of_a_fit_is_the_fit() {
-    for (name, text) in TRUTHS {
+    for (name, text) in TRUTHS.iter().filter(|(name, _)| *name != "he") {
         let samples = of_model(text, [8, 8, 12]);
         let data = FitData::new(samples.clone(), Metric::CubeRoot);
         // one family of several lobes stands for all
@@ -276,10 +286,11 @@ fn what_cannot_be_fitted_is_refused_in_one_line() {
 
 #[test]
 fn slow_intervals_cover_the_truth() {
+    // He's model is left out: as one of many its series would take most of the time
     // per family and parameter: misses among SEEDS seeds are binomial(SEEDS, 0.05) if intervals are right
     const SEEDS: u64 = 200;
     let mut worst = Vec::new();
-    for (name, text) in TRUTHS {
+    for (name, text) in TRUTHS.iter().filter(|(name, _)| *name != "he") {
         let family = family(name, 1).unwrap();
         let mut misses: Vec<u32> = Vec::new();
         for seed in 0..SEEDS {
