@@ -89,7 +89,7 @@ fn slow_he_gives_its_parameters_back() {
 }
 
 fn gives_back(name: &str, text: &str) {
-    let data = FitData::new(measured(text, [16, 16, 32], 0.0, 0), Metric::Ngan);
+    let data = FitData::new(measured(text, [12, 12, 20], 0.0, 0), Metric::Ngan);
     let fit = fit(&*family(name, 1).unwrap(), &data).unwrap();
     for estimate in &fit.estimates {
         let expected = truth(text, estimate);
@@ -142,7 +142,7 @@ fn each_metric_is_smallest_where_it_was_minimised() {
 #[test]
 fn the_text_of_a_fit_is_the_fit() {
     for (name, text) in TRUTHS.iter().filter(|(name, _)| *name != "he") {
-        let samples = of_model(text, [8, 8, 12]);
+        let samples = of_model(text, [6, 6, 8]);
         let data = FitData::new(samples.clone(), Metric::CubeRoot);
         // one family of several lobes stands for all
         for lobes in if *name == "ward" { 1..=2 } else { 1..=1 } {
