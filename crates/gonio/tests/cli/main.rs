@@ -24,3 +24,5 @@ mod interrupt;
 mod output;
 #[cfg(test)]
 mod program;
+#[cfg(test)]
+mod spectra;
