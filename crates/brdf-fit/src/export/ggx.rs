@@ -77,6 +77,9 @@ impl MetalMix {
 
 impl Brdf<3> for MetalMix {
     fn eval(&self, wi: DVec3, wo: DVec3) -> [f64; 3] {
+        if wi.z <= 0.0 || wo.z <= 0.0 {
+            return [0.0; 3];
+        }
         let ggx = Ggx {
             alpha_x: self.alpha,
             alpha_y: self.alpha,

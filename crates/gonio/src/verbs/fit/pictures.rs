@@ -4,10 +4,9 @@ use super::one::Source;
 use crate::verbs::Context;
 use crate::{curves, load};
 use anyhow::Result;
-use brdf::{Brdf, Measured, Status, Symmetry};
+use brdf::Brdf;
 use brdf_fit::Fit;
 use brdf_fit::export::{Model3, scene_materials};
-use glam::DVec3;
 use plot::{Curve, PolarPlot, Radius, Stroke};
 use scene_io::image::{Picture, write_png};
 use scene_io::{Overrides, SceneFile, build_scene};
@@ -25,26 +24,6 @@ const DECADES: f64 = 4.0;
 const SIDE: u32 = 160;
 const SPP: u32 = 64;
 
-/// A model in linear sRGB as the plots want it.
-struct AsMeasured(Box<dyn Brdf<3>>, Basis);
-
-impl Measured for AsMeasured {
-    fn basis(&self) -> &Basis {
-        &self.1
-    }
-    fn eval_native(&self, wi: DVec3, wo: DVec3, out: &mut [f64]) -> Status {
-        out.copy_from_slice(&self.0.eval(wi, wo));
-        Status::Measured
-    }
-    fn symmetry(&self) -> Symmetry {
-        Symmetry::FULL
-    }
-}
-
-fn as_measured(brdf: Box<dyn Brdf<3>>) -> AsMeasured {
-    AsMeasured(brdf, Basis::Rgb(RgbSpace::srgb()))
-}
-
 /// Luminance in the plane of incidence: the data solid, the best fits dashed.
 pub(super) fn polar(
     context: &Context,
@@ -53,6 +32,8 @@ pub(super) fn polar(
     folder: &Path,
 ) -> Result<PathBuf> {
     let mut drawn: Vec<Curve> = Vec::new();
+    let weights = Basis::Rgb(RgbSpace::srgb()).luminance_weights();
+    let luminance = |f: [f64; 3]| -> f64 { f.iter().zip(&weights).map(|(f, w)| f * w).sum() };
     for (k, deg) in LIGHTS_DEG.into_iter().enumerate() {
         let legend = |name: &str| {
             if k == 0 {
@@ -68,14 +49,14 @@ pub(super) fn polar(
                 curves::luminance_lobe(&*loaded.measured, &legend("data"), theta, [0, 0, 0])
             }
             Source::Model(model) => {
-                let model = as_measured(Box::new(std::sync::Arc::clone(&model.built.brdf)));
-                curves::luminance_lobe(&model, &legend("data"), theta, [0, 0, 0])
+                let f = |wi, wo| luminance(model.built.brdf.eval(wi, wo));
+                curves::lobe_of(f, &legend("data"), theta, [0, 0, 0])
             }
         });
         for (n, fit) in fits.iter().take(SHOWN).enumerate() {
-            let model = as_measured(Box::new(Model3::new(&fit.parts)?));
-            let mut curve =
-                curves::luminance_lobe(&model, &legend(&fit.name), theta, plot::palette(n));
+            let model = Model3::new(&fit.parts)?;
+            let f = |wi, wo| luminance(model.eval(wi, wo));
+            let mut curve = curves::lobe_of(f, &legend(&fit.name), theta, plot::palette(n));
             curve.stroke = Stroke::Dashed;
             drawn.push(curve);
         }
