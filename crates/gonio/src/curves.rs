@@ -3,6 +3,7 @@
 use crate::load::brdf_scale;
 use brdf::{HalfDiff, Measured, direction};
 use brdf_table::directional_albedo;
+use glam::DVec3;
 use plot::{Color, Curve, Stroke, palette};
 use spectrum::{Basis, Observer, linear_srgb_from_xyz, srgb_encode};
 use std::f64::consts::{FRAC_PI_2, PI};
