@@ -3,7 +3,7 @@
 //!
 //! `cargo run --release -p brdf-sampling --example relvar -- [--methods=default,fine,cosine] [--colour] FILE ...`
 //!
-//! Nanoseconds are the best of 40 runs. With `--colour` the target is the one for all channels: then `albedo^2 - 1` is
+//! With `--averaged` samplers see the mean over the azimuth only. Nanoseconds are the best of 40 runs. With `--colour` the target is the one for all channels: then `albedo^2 - 1` is
 //! the floor J* of the variance averaged over channels, and the sampler's own variance comes on top as a factor.
 #![expect(clippy::print_stdout, reason = "a program")]
 #![expect(clippy::disallowed_methods, reason = "reads the files it is told")]
@@ -119,11 +119,12 @@ fn options(name: &str) -> Option<HvtOptions> {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut names = vec!["default".to_string()];
-    let (mut files, mut colour) = (Vec::new(), false);
+    let (mut files, mut colour, mut averaged) = (Vec::new(), false, false);
     for arg in std::env::args().skip(1) {
         match arg.strip_prefix("--methods=") {
             Some(list) => names = list.split(',').map(String::from).collect(),
             None if arg == "--colour" => colour = true,
+            None if arg == "--averaged" => averaged = true,
             None => files.push(arg),
         }
     }
@@ -159,7 +160,12 @@ fn main() -> Result<(), Box<dyn Error>> {
                 symmetry: table.symmetry(),
             };
             let start = Instant::now();
-            let sampler = method.build(target);
+            let turned = |wi: DVec3, wo: DVec3| mean_over_turns(&f, wi, wo);
+            let sampler = method.build(if averaged {
+                Target::new(&turned)
+            } else {
+                target
+            });
             let build_ms = start.elapsed().as_secs_f64() * 1e3;
             let report = sampler_report(target, &*sampler, SAMPLES);
             print_row(stem, build_ms, sampler_cost(&*sampler, 40), &report);
@@ -172,6 +178,17 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     Ok(())
+}
+
+/// The mean of `f` over both directions turned together by eighths of a turn: what is left of an anisotropic target for
+/// a sampler without slices of azimuth.
+fn mean_over_turns(f: &dyn Fn(DVec3, DVec3) -> f64, wi: DVec3, wo: DVec3) -> f64 {
+    let turned = |k: u32| {
+        let (s, c) = (f64::from(k) * std::f64::consts::FRAC_PI_4).sin_cos();
+        let turn = |w: DVec3| DVec3::new(c * w.x - s * w.y, s * w.x + c * w.y, w.z);
+        f(turn(wi), turn(wo))
+    };
+    (0..8).map(turned).sum::<f64>() / 8.0
 }
 
 /// What follows the angles in a row.

@@ -1,34 +1,39 @@
 //! The horizon-adapted half-vector chart: the hemisphere of `wi` as a unit square, for one `wo`.
 //!
 //! With wo = (si, 0, ci) (its azimuth rotated away), the half vector h = (s cos phi, s sin phi, c) and
-//! r = 2 sin(theta_h / 2) (equal-area radius: c = 1 - r^2/2, dwh = r dr dphi):
+//! r = 2 sin(theta_h / 2) (equal-area radius: c = 1 - r^2/2, dwh = d(r^2) dphi / 2):
 //!
-//! - a in [0, 1] is the radial coordinate: a = L(y) / L(y_max), y = (r + sqrt(r^2 + r0^2)) / r0, with L the
-//!   [`crate::pseudo_log`] (L(y) ~ asinh(r/r0) / ln 2). Linear in r below r0, logarithmic above, up to r_max,
-//!   where theta_h = (theta_o + 90 deg) / 2: beyond, no wi is above the horizon.
+//! - a in [0, 1] is the radial coordinate: a = L(y) / L(y_max), y = 1 + r^2 / r0^2, with L the [`crate::pseudo_log`].
+//!   Even in solid angle below r0, logarithmic above, up to r_max, where theta_h = (theta_o + 90 deg) / 2: beyond, no
+//!   wi is above the horizon.
 //! - b in [0, 1] is the azimuth: b = (1 + t / t_max) / 2 with t = sin(phi / 4), where phi_max(s) is the
 //!   azimuth at which wi meets the horizon: cos phi_max = n/d, n = -ci (c^2 - s^2), d = 2 si s c.
 //!
 //! Every point of the square is a direction above the horizon and the reverse, so nothing is ever wasted. No
 //! transcendental function is needed either way. The Jacobian is
 //!
-//! J = dwi / (da db) = 4 (wo.h) r (dr/da) (4 / cos(phi/4)) (2 t_max).
+//! J = dwi / (da db) = 4 (wo.h) (1/2 d(r^2)/da) (4 / cos(phi/4)) (2 t_max).
 
 use crate::pseudo_log::{pseudo_exp, pseudo_log};
 use glam::{DVec2, DVec3};
 
 /// Keeps wi a hair above the horizon where rounding would drop it below.
 const MIN_COS: f64 = 1e-12;
+/// Viewers whose sine is below this have no azimuth: its square would underflow.
+const FLAT: f64 = 1e-100;
 
 /// The chart of one viewer elevation.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Chart {
     sin_o: f64,
     cos_o: f64,
-    r0: f64,
-    inv_r0: f64,
+    /// r0^2 and its inverse.
+    scale2: f64,
+    inv_scale2: f64,
     /// L(y_max): a times this is L(y).
     span: f64,
+    /// Cosine of the largest theta_h: sqrt((1 - si) / 2).
+    pub(crate) min_cos_h: f64,
 }
 
 /// A point of the chart in both descriptions.
@@ -48,30 +53,32 @@ impl Chart {
     /// The chart of a viewer at sin/cos `sin_o`, `cos_o` > 0, with radial scale `r0` > 0, radians.
     #[inline]
     pub(crate) fn new(sin_o: f64, cos_o: f64, r0: f64) -> Self {
-        // cosine of the largest theta_h
-        let c_min = (0.5 - 0.5 * sin_o).max(0.0).sqrt();
-        let r2 = 2.0 - 2.0 * c_min;
-        let inv_r0 = 1.0 / r0;
-        let y_max = (r2.sqrt() + (r2 + r0 * r0).sqrt()) * inv_r0;
+        let scale2 = r0 * r0;
+        Self::of(sin_o, cos_o, [scale2, 1.0 / scale2])
+    }
+
+    /// [`Self::new`] from the square of the radial scale and its inverse.
+    #[inline(always)]
+    pub(crate) fn of(sin_o: f64, cos_o: f64, [scale2, inv_scale2]: [f64; 2]) -> Self {
+        let min_cos_h = (0.5 - 0.5 * sin_o).max(0.0).sqrt();
+        let y_max = 1.0 + (2.0 - 2.0 * min_cos_h) * inv_scale2;
         Self {
             sin_o,
             cos_o,
-            r0,
-            inv_r0,
+            scale2,
+            inv_scale2,
             span: pseudo_log(y_max).0,
+            min_cos_h,
         }
     }
 
     /// From the square to the hemisphere.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn forward(&self, ab: DVec2) -> ChartPoint {
-        let (y, y_slope) = pseudo_exp(ab.x * self.span);
-        let inv_y = 1.0 / y;
-        // (y - 1/y) / 2 without cancellation at y = 1
-        let r = 0.5 * self.r0 * (y - 1.0) * (y + 1.0) * inv_y;
-        let root = 0.5 * self.r0 * (y + inv_y);
-        let c = 1.0 - 0.5 * r * r;
-        let s = r * (1.0 - 0.25 * r * r).max(0.0).sqrt();
+        let e = pseudo_exp(ab.x * self.span);
+        let r2 = self.scale2 * e.minus_one;
+        let c = 1.0 - 0.5 * r2;
+        let s = (r2 * (1.0 - 0.25 * r2)).max(0.0).sqrt();
         let half_max = self.half_max(s, c);
         let cos_half_max = (1.0 - half_max).sqrt();
         let t_max = (0.5 * half_max / (1.0 + cos_half_max)).sqrt();
@@ -86,7 +93,8 @@ impl Chart {
             2.0 * wo_h * s * sin_phi,
             (2.0 * wo_h * c - self.cos_o).max(MIN_COS),
         );
-        let jacobian = 32.0 * wo_h * r * root * self.span * t_max / (y_slope * cos_quarter);
+        let jacobian =
+            16.0 * wo_h * (self.scale2 + r2) * self.span * t_max / (e.slope * cos_quarter);
         ChartPoint {
             wi,
             ab,
@@ -98,48 +106,58 @@ impl Chart {
     #[inline]
     pub(crate) fn inverse(&self, wi: DVec3) -> ChartPoint {
         let h = DVec3::new(wi.x + self.sin_o, wi.y, wi.z + self.cos_o);
-        let p = self.locate(h, h.x * h.x + h.y * h.y);
-        ChartPoint { wi, ..p }
+        let (ab, jacobian) = self.locate(h, DVec2::new(self.sin_o, 0.0));
+        ChartPoint { wi, ab, jacobian }
     }
 
-    /// [`Self::inverse`] from wi + wo in that frame, and its squared distance from the normal. The latter does not
-    /// change under rotation, so a caller has it before the frame is known: the longest chain of dependent
-    /// operations starts there.
-    #[inline]
-    pub(crate) fn locate(&self, h: DVec3, xy2: f64) -> ChartPoint {
-        let (hx, hy, hz) = (h.x, h.y, h.z);
+    /// (a, b) and the Jacobian of h = wi + wo in any frame about the normal, `v` being the horizontal part of wo there.
+    /// Azimuths enter as products with `v`: no frame has to be made.
+    #[inline(always)]
+    pub(crate) fn locate(&self, h: DVec3, v: DVec2) -> (DVec2, f64) {
+        let flat = self.sin_o < FLAT;
+        let (v, v2) = if flat {
+            (DVec2::X, 1.0)
+        } else {
+            (v, self.sin_o * self.sin_o)
+        };
+        let (xy2, hz) = (h.x * h.x + h.y * h.y, h.z);
         let len2 = xy2 + hz * hz;
-        let (len, xy) = (len2.sqrt(), xy2.sqrt());
+        let (len, vh) = (len2.sqrt(), (v2 * xy2).sqrt().max(f64::MIN_POSITIVE));
         // 2 (1 - cos theta_h) = 2 xy^2 / (len (len + hz))
-        let r2 = 2.0 * xy2 / (len2 + len * hz);
-        let (r, root) = (r2.sqrt(), (r2 + self.r0 * self.r0).sqrt());
-        let (l, y_slope) = pseudo_log(((r + root) * self.inv_r0).max(1.0));
-        // squares of cosine and sine of phi/2: of two forms of either, the one without cancellation
-        let e = xy + hx.abs();
-        let inv = 1.0 / (2.0 * xy * e).max(f64::MIN_POSITIVE);
-        let (large, small) = (e * e * inv, hy * hy * inv);
-        let (cos2, sin2) = if hx >= 0.0 {
+        let ratio = 2.0 * xy2 / (len2 + len * hz);
+        let (l, slope) = pseudo_log(1.0 + ratio * self.inv_scale2);
+        // the larger of sine and cosine of phi/2 is a root, the other follows from their product
+        let inv = 0.5 / (vh * hz).max(f64::MIN_POSITIVE);
+        let dot = h.x * v.x + h.y * v.y;
+        let cross = h.y * v.x - h.x * v.y;
+        let inv_vh = inv * hz;
+        let large = ((vh + dot.abs()) * inv_vh).clamp(0.5, 1.0).sqrt();
+        let small = (cross.abs() * inv_vh / large).min(large);
+        let (cos_half, sin_half) = if dot >= 0.0 {
             (large, small)
         } else {
             (small, large)
         };
+        // sin^2(phi_max / 2) = (d - n) / (2 d) as in `half_max`, with d = 2 vh hz
+        let d = 2.0 * vh * hz;
+        let n = self.cos_o * (xy2 - hz * hz);
+        let half_max = if flat {
+            1.0
+        } else {
+            ((d - n + 1e-15 * len2) * (0.5 * inv)).min(1.0)
+        };
         // wi is above the horizon, so phi <= phi_max; at the rim rounding may say otherwise by far
-        let half_max = self.half_max(xy, hz).max(sin2.min(1.0));
-        let one_plus_max = 1.0 + (1.0 - half_max).sqrt();
-        let one_plus = 1.0 + cos2.min(1.0).sqrt();
-        // t / t_max and t_max / cos(phi/4)
-        let ratio = (sin2 * one_plus_max / (one_plus * half_max))
-            .sqrt()
-            .min(1.0);
-        let reach = (half_max / (one_plus_max * one_plus)).sqrt();
-        let ab = DVec2::new((l / self.span).min(1.0), 0.5 + 0.5 * ratio.copysign(hy));
+        let half_max = half_max.max(sin_half * sin_half).max(MIN_HALF);
+        let one_plus_max = 1.0 + (1.0 - half_max).max(0.0).sqrt();
+        let one_plus = 1.0 + cos_half;
+        // t / t_max and t_max / cos(phi/4), by one division and one root
+        let root = (1.0 / (half_max * one_plus_max * one_plus)).sqrt();
+        let across = (sin_half * one_plus_max * root).min(1.0);
+        let reach = half_max * root;
+        let ab = DVec2::new((l / self.span).min(1.0), 0.5 + 0.5 * across.copysign(cross));
         // wo.h = |wi + wo| / 2
-        let jacobian = 16.0 * len * r * root * self.span * reach / y_slope;
-        ChartPoint {
-            wi: h - DVec3::new(self.sin_o, 0.0, self.cos_o),
-            ab,
-            jacobian: jacobian.max(f64::MIN_POSITIVE),
-        }
+        let jacobian = 8.0 * len * (self.scale2 + ratio) * self.span * reach / slope;
+        (ab, jacobian.max(f64::MIN_POSITIVE))
     }
 
     /// sin^2(phi_max / 2) = (d - n) / (2 d), for sine and cosine of theta_h or any multiple of both. Where

@@ -14,24 +14,24 @@ use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
 /// Roughnesses of the full dictionary.
-const ALPHAS: [f64; 10] = [0.003, 0.008, 0.02, 0.04, 0.07, 0.12, 0.2, 0.33, 0.55, 0.9];
+const ALPHAS: [f32; 10] = [0.003, 0.008, 0.02, 0.04, 0.07, 0.12, 0.2, 0.33, 0.55, 0.9];
 /// Slices of the viewer's elevation.
 const SLICES: usize = 8;
 /// Multiplicative updates of the weights.
 const UPDATES: usize = 60;
 /// Lowest weight of the cosine: support everywhere.
-const COSINE_FLOOR: f64 = 1e-3;
+const COSINE_FLOOR: f32 = 1e-3;
 
 /// A mixture of GGX lobes and a cosine with weights by viewer elevation.
 #[derive(Clone, Debug)]
 pub struct Dictionary {
-    alphas: Vec<f64>,
+    alphas: Vec<f32>,
     /// Per slice: the cosine, then the lobes; sums to 1.
-    weights: Vec<f64>,
+    weights: Vec<f32>,
 }
 
 impl Dictionary {
-    /// Ten lobes, 0.8 KB.
+    /// Ten lobes, 392 bytes.
     #[must_use]
     pub fn new(target: Target<'_>) -> Self {
         Self::fitted(&Validation::new(&target), &ALPHAS)
@@ -47,16 +47,16 @@ impl Dictionary {
         best.map_or_else(|| Self::fitted(&points, &[0.3]), |b| b.1)
     }
 
-    fn fitted(points: &Validation, alphas: &[f64]) -> Self {
+    fn fitted(points: &Validation, alphas: &[f32]) -> Self {
         let lobes = alphas.len() + 1;
         let mut mixture = Self {
             alphas: alphas.to_vec(),
-            weights: vec![1.0 / lobes as f64; SLICES * lobes],
+            weights: vec![1.0 / lobes as f32; SLICES * lobes],
         };
         for _ in 0..UPDATES {
             let mut gain = vec![0.0; mixture.weights.len()];
             points.for_each(|wi, wo, cost| {
-                let (k, t) = slice_blend(wo.z, SLICES);
+                let (k, t) = slice_blend(wo, SLICES);
                 let p = mixture.pdf(wi, wo);
                 for c in 0..lobes {
                     let g = cost * mixture.lobe_pdf(c, wi, wo) / (p * p);
@@ -80,7 +80,7 @@ impl Dictionary {
             let new: Vec<f64> = weights
                 .iter()
                 .zip(gain)
-                .map(|(w, g)| w * g.sqrt())
+                .map(|(w, g)| f64::from(*w) * g.sqrt())
                 .collect();
             let sum: f64 = new.iter().sum();
             if !(sum > 0.0 && sum.is_finite()) {
@@ -89,10 +89,10 @@ impl Dictionary {
                 continue;
             }
             for (w, n) in weights.iter_mut().zip(&new) {
-                *w = n / sum;
+                *w = (n / sum) as f32;
             }
             weights[0] = weights[0].max(COSINE_FLOOR);
-            let sum: f64 = weights.iter().sum();
+            let sum: f32 = weights.iter().sum();
             weights.iter_mut().for_each(|w| *w /= sum);
         }
     }
@@ -100,13 +100,14 @@ impl Dictionary {
     /// Weight of component `c` for the viewer.
     fn weight(&self, c: usize, (k, t): (usize, f64)) -> f64 {
         let lobes = self.alphas.len() + 1;
-        (1.0 - t) * self.weights[k * lobes + c] + t * self.weights[(k + 1) * lobes + c]
+        let at = |k: usize| f64::from(self.weights[k * lobes + c]);
+        (1.0 - t) * at(k) + t * at(k + 1)
     }
 
     fn lobe_pdf(&self, c: usize, wi: DVec3, wo: DVec3) -> f64 {
         match c.checked_sub(1) {
             None => cosine_pdf(wi),
-            Some(k) => ggx_pdf(self.alphas[k], wi, wo),
+            Some(k) => ggx_pdf(f64::from(self.alphas[k]), wi, wo),
         }
     }
 }
@@ -116,7 +117,7 @@ impl DirectionSampler for Dictionary {
         if wo.z <= 0.0 {
             return None;
         }
-        let place = slice_blend(wo.z, SLICES);
+        let place = slice_blend(wo, SLICES);
         let (mut x, mut c, mut w) = (u.x, 0, self.weight(0, place));
         while x >= w && c < self.alphas.len() {
             x -= w;
@@ -126,7 +127,7 @@ impl DirectionSampler for Dictionary {
         let u = DVec2::new((x / w).clamp(0.0, 1.0 - f64::EPSILON), u.y);
         let wi = match c.checked_sub(1) {
             None => cosine_hemisphere(u),
-            Some(k) => ggx_sample(self.alphas[k], wo, u),
+            Some(k) => ggx_sample(f64::from(self.alphas[k]), wo, u),
         };
         let pdf = self.pdf(wi, wo);
         (wi.z > 0.0 && pdf > 0.0).then_some(DirectionSample { wi, pdf })
@@ -136,14 +137,14 @@ impl DirectionSampler for Dictionary {
         if wi.z <= 0.0 || wo.z <= 0.0 {
             return 0.0;
         }
-        let place = slice_blend(wo.z, SLICES);
+        let place = slice_blend(wo, SLICES);
         (0..=self.alphas.len())
             .map(|c| self.weight(c, place) * self.lobe_pdf(c, wi, wo))
             .sum()
     }
 
     fn bytes(&self) -> usize {
-        size_of::<f64>() * (self.alphas.len() + self.weights.len())
+        size_of::<f32>() * (self.alphas.len() + self.weights.len())
     }
 }
 

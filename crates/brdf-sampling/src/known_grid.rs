@@ -74,6 +74,48 @@ fn unit_factor(length_squared: f64) -> f64 {
     1.5 - 0.5 * length_squared
 }
 
+/// A viewer direction made a unit vector to first order, and its sine: all that densities need to know.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct UnitView {
+    pub(crate) wo: DVec3,
+    pub(crate) sin_o: f64,
+}
+
+impl UnitView {
+    #[inline]
+    pub(crate) fn new(wo: DVec3) -> Self {
+        let r2 = wo.x * wo.x + wo.y * wo.y;
+        let unit = unit_factor(r2 + wo.z * wo.z);
+        Self {
+            wo: unit * wo,
+            sin_o: (r2.sqrt() * unit).min(1.0),
+        }
+    }
+
+    /// wi + wo, both made unit vectors to first order.
+    #[inline]
+    pub(crate) fn half(self, wi: DVec3) -> DVec3 {
+        unit_factor(wi.length_squared()) * wi + self.wo
+    }
+
+    /// Elevation and azimuth; azimuth 0 straight along the normal.
+    #[inline]
+    pub(crate) fn frame(self) -> ViewFrame {
+        let (cos_phi, sin_phi) = if self.sin_o > 0.0 {
+            let inv = 1.0 / self.sin_o;
+            (self.wo.x * inv, self.wo.y * inv)
+        } else {
+            (1.0, 0.0)
+        };
+        ViewFrame {
+            sin_o: self.sin_o,
+            cos_o: self.wo.z,
+            cos_phi,
+            sin_phi,
+        }
+    }
+}
+
 /// A viewer direction split into elevation and azimuth: rotates light directions into the frame where the
 /// viewer has azimuth 0, and back.
 #[derive(Clone, Copy, Debug)]
@@ -87,21 +129,7 @@ pub(crate) struct ViewFrame {
 impl ViewFrame {
     #[inline]
     pub(crate) fn new(wo: DVec3) -> Self {
-        let r2 = wo.x * wo.x + wo.y * wo.y;
-        let r = r2.sqrt();
-        let (cos_phi, sin_phi) = if r > 0.0 {
-            let inv = 1.0 / r;
-            (wo.x * inv, wo.y * inv)
-        } else {
-            (1.0, 0.0)
-        };
-        let unit = unit_factor(r2 + wo.z * wo.z);
-        Self {
-            sin_o: (r * unit).min(1.0),
-            cos_o: wo.z * unit,
-            cos_phi,
-            sin_phi,
-        }
+        UnitView::new(wo).frame()
     }
 
     /// The frame of a slice; keeps its azimuth even at theta = 0.
@@ -113,18 +141,6 @@ impl ViewFrame {
             cos_phi,
             sin_phi,
         }
-    }
-
-    /// wi + wo, both made unit vectors to first order: in this frame, and its squared distance from the normal.
-    #[inline]
-    pub(crate) fn half(self, wi: DVec3, wo: DVec3) -> (DVec3, f64) {
-        let h = unit_factor(wi.length_squared()) * wi + unit_factor(wo.length_squared()) * wo;
-        let local = DVec3::new(
-            h.x * self.cos_phi + h.y * self.sin_phi,
-            h.y * self.cos_phi - h.x * self.sin_phi,
-            h.z,
-        );
-        (local, h.x * h.x + h.y * h.y)
     }
 
     /// Also makes `w` a unit vector to first order.

@@ -24,15 +24,15 @@ pub(crate) fn pseudo_log(x: f32) -> (f32, f32) {
     (e + m * slope, (1.0 + m) * slope * inverse)
 }
 
-/// [`crate::pseudo_log::pseudo_exp`] in f32.
+/// [`crate::pseudo_log::pseudo_exp`] in f32: x - 1 and x L'(x).
 #[inline(always)]
 pub(crate) fn pseudo_exp(l: f32) -> (f32, f32) {
     let e = l as i32;
     let r = l - e as f32;
     let d = SQRT_2 - (SQRT_2 - 1.0) * r;
     let scale = f32::from_bits(((e + 127) as u32) << 23);
-    let x = 1.0 + r / d;
-    (scale * x, x * d * d * FRAC_1_SQRT_2)
+    let m = r / d;
+    ((scale - 1.0) + scale * m, (1.0 + m) * d * d * FRAC_1_SQRT_2)
 }
 
 /// Sine and cosine of 2 pi `turns`, for `turns` in [0, 1]: an octant either side of the nearest quarter turn, by the

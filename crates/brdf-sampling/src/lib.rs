@@ -6,12 +6,15 @@
 //! - [`Uniform`], [`Cosine`]: no table, the yardsticks.
 //! - [`Rejection`]: the thesis' method; no table but maxima.
 //! - [`Inversion`]: large tables, plain.
-//! - [`Hvt`]: small tables of least variance, the default choice; [`ColourTarget`] serves several channels.
-//! - [`Dictionary`]: GGX lobes and a cosine, 0.8 KB or a single lobe.
+//! - [`Hvt`]: small tables of least variance, the default choice; [`ColourTarget`] serves several channels,
+//!   [`colour_floor`] says how well that can go; [`BakedHvt`] evaluates through the table.
+//! - [`Dictionary`]: GGX lobes and a cosine, 0.4 KB or a single lobe.
 //! - [`sampler_report`], [`sampler_cost`], [`relative_variance`]: how noisy and how fast any of them is.
 //!
 //! Not here: lights, multiple importance sampling, files.
 
+mod albedo;
+mod baked;
 mod chart;
 mod colour;
 mod cosine;
@@ -29,7 +32,8 @@ mod target;
 mod uniform;
 mod variance;
 
-pub use colour::ColourTarget;
+pub use baked::BakedHvt;
+pub use colour::{ColourTarget, colour_floor};
 pub use cosine::Cosine;
 pub use dictionary::Dictionary;
 pub use hvt::{Hvt, HvtOptions, MAX_B, Preset};

@@ -24,15 +24,27 @@ pub(crate) fn pseudo_log(x: f64) -> (f64, f64) {
     (e + m * slope, (1.0 + m) * slope * inverse)
 }
 
-/// The x with L(x) = l, and x L'(x), for 0 <= l < 1000.
+/// An x >= 1 and what goes with it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Exponential {
+    /// x - 1, without cancellation near 1.
+    pub(crate) minus_one: f64,
+    /// x L'(x).
+    pub(crate) slope: f64,
+}
+
+/// The x with L(x) = l, for 0 <= l < 1000.
 #[inline]
-pub(crate) fn pseudo_exp(l: f64) -> (f64, f64) {
+pub(crate) fn pseudo_exp(l: f64) -> Exponential {
     let e = l as i32;
     let r = l - f64::from(e);
     let d = SQRT_2 - (SQRT_2 - 1.0) * r;
     let m = r / d;
     let scale = f64::from_bits(((e + 1023) as u64) << 52);
-    (scale * (1.0 + m), (1.0 + m) * d * d * FRAC_1_SQRT_2)
+    Exponential {
+        minus_one: (scale - 1.0) + scale * m,
+        slope: (1.0 + m) * d * d * FRAC_1_SQRT_2,
+    }
 }
 
 #[cfg(test)]
@@ -44,7 +56,8 @@ mod tests {
         for k in 0..4000 {
             let x = (1.0 + 1e-9 * f64::from(k)) * (0.004 * f64::from(k)).exp();
             let (l, slope) = pseudo_log(x);
-            let (back, slope_back) = pseudo_exp(l);
+            let exp = pseudo_exp(l);
+            let (back, slope_back) = (1.0 + exp.minus_one, exp.slope);
             // a few roundings of l, which is below 24
             assert!((back / x - 1.0).abs() < 1e-13, "{x} came back as {back}");
             assert!((slope_back / slope - 1.0).abs() < 1e-12, "slope at {x}");

@@ -4,7 +4,7 @@ use crate::chart::{Chart, ChartPoint};
 use glam::DVec2;
 
 /// Radial scale of the quadrature chart: resolves lobes down to a thousandth of a radian.
-const R0: f64 = 1e-3;
+const R0: f64 = 2e-4;
 /// Coarsest and finest radial cell counts; half as many across.
 const COARSE: usize = 128;
 const FINE: usize = 512;

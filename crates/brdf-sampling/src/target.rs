@@ -2,6 +2,7 @@
 
 use brdf::Symmetry;
 use glam::DVec3;
+use sampling::Rng;
 use std::f64::consts::TAU;
 use std::fmt;
 
@@ -32,21 +33,44 @@ impl<'a> Target<'a> {
         sanitised(self.f, wi, wo)
     }
 
-    /// The mean of f over both directions turned about the normal together, by eighths of a turn: what a sampler
-    /// without azimuth slices is built for.
-    pub(crate) fn turned_mean(&self, wi: DVec3, wo: DVec3) -> f64 {
-        let turned = |k: u32| {
-            let (s, c) = (f64::from(k) * TAU / f64::from(TURNS)).sin_cos();
-            let turn = |w: DVec3| DVec3::new(c * w.x - s * w.y, s * w.x + c * w.y, w.z);
-            let f = (self.f)(turn(wi), turn(wo));
-            if f > 0.0 && f.is_finite() { f } else { 0.0 }
+    /// What turning both directions about the normal does to f. The half turn, which [`Symmetry`] does not name, is
+    /// looked for at random pairs of directions; should it be missed or seen in vain, samplers lose variance only.
+    pub(crate) fn turning(&self) -> Turning {
+        if self.symmetry.isotropic {
+            return Turning::Isotropic;
+        }
+        let mut rng = Rng::new(71);
+        let mut draw = || {
+            let u = rng.uniform2();
+            brdf::direction((1.0 - 0.999 * u.x).acos(), TAU * u.y)
         };
-        (0..TURNS).map(turned).sum::<f64>() / f64::from(TURNS)
+        let turned = |w: DVec3| DVec3::new(-w.x, -w.y, w.z);
+        let differs = (0..PAIRS).any(|_| {
+            let (wi, wo) = (draw(), draw());
+            let (here, there) = (self.f_cos(wi, wo), self.f_cos(turned(wi), turned(wo)));
+            (here - there).abs() > 1e-6 * (here + there)
+        });
+        if differs {
+            Turning::FullTurn
+        } else {
+            Turning::HalfTurn
+        }
     }
 }
 
-/// Azimuths of [`Target::turned_mean`].
-const TURNS: u32 = 8;
+/// Pairs of directions at which [`Target::turning`] looks.
+const PAIRS: usize = 400;
+
+/// The smallest turn about the normal that leaves a reflectance as it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Turning {
+    /// Any.
+    Isotropic,
+    /// Half a turn: brushed surfaces, most fabrics.
+    HalfTurn,
+    /// None.
+    FullTurn,
+}
 
 impl fmt::Debug for Target<'_> {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -15,6 +15,18 @@ fn sampler(width: f64) -> Hvt {
     Hvt::new(Target::new(&f), Preset::Default.options())
 }
 
+/// A lobe three times as wide across as along.
+fn brushed() -> Hvt {
+    let f = |wi: DVec3, wo: DVec3| {
+        let h = wi + wo;
+        let q = 1.0 + ((h.x / 0.05).powi(2) + (h.y / 0.15).powi(2)) / (h.z * h.z);
+        0.1 + 10.0 / (q * q)
+    };
+    let mut target = Target::new(&f);
+    target.symmetry.isotropic = false;
+    Hvt::new(target, Preset::Default.options())
+}
+
 /// Relative difference at the given quantile.
 fn quantile(mut off: Vec<f64>, q: f64) -> f64 {
     off.sort_by(f64::total_cmp);
@@ -24,8 +36,12 @@ fn quantile(mut off: Vec<f64>, q: f64) -> f64 {
 #[test]
 fn lanes_agree_with_the_scalar_form() {
     // f32 directions leave h uncertain by 1e-7 and lobes of width w uncertain by 1e-7 / w
-    for (width, typical, rare) in [(0.5, 3e-6, 1e-4), (0.05, 1e-5, 1e-3), (0.005, 1e-4, 1e-2)] {
-        let s = sampler(width);
+    for (width, s, typical, rare) in [
+        ("0.5", sampler(0.5), 3e-6, 1e-4),
+        ("0.05", sampler(0.05), 1e-5, 1e-3),
+        ("0.005", sampler(0.005), 1e-4, 1e-2),
+        ("0.05 x 0.15", brushed(), 1e-5, 1e-3),
+    ] {
         let mut rng = Rng::new(9);
         let (mut direction_off, mut sampled_off, mut pdf_off) =
             (Vec::new(), Vec::new(), Vec::new());

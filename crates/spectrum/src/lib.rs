@@ -8,21 +8,28 @@
 //! - [`Spectrum`], [`Bins`]: functions of the wavelength, and their means over fixed intervals.
 //! - [`Observer`], [`Illuminant`], [`Viewing`]: from spectra to XYZ.
 //! - [`RgbSpace`], [`bradford`]: from XYZ to RGB and between whites.
-//! - [`LinearUplift`]: from RGB to spectra.
+//! - [`LinearUplift`], [`SigmoidFitter`]: from RGB to spectra.
+//! - [`WavelengthDensity`]: wavelengths for paths. [`photometry`]: lumens and watts.
+//! - [`GamutMapping`]: what becomes of colours a screen can't show.
 //! - [`lab_from_xyz`], [`ciede2000`]: how different two colours look.
 
 mod adaptation;
 mod basis;
 mod bins;
 mod ciede2000;
+mod gamut;
 mod generated;
+mod hero;
 mod illuminant;
 mod lab;
 mod linear_uplift;
 pub mod matrix;
+mod metamer;
 mod observer;
+pub mod photometry;
 mod rgb_space;
 mod samples;
+mod sigmoid;
 mod spectral;
 mod transfer;
 mod tristimulus;
@@ -31,16 +38,20 @@ pub use adaptation::bradford;
 pub use basis::{Basis, table_srgb_from_xyz};
 pub use bins::{Bins, BinsError};
 pub use ciede2000::ciede2000;
+pub use gamut::{GamutMapping, GamutReport};
+pub use hero::WavelengthDensity;
 pub use illuminant::{Illuminant, IlluminantError, planck};
 pub use lab::{lab_from_xyz, xyz_from_lab};
 pub use linear_uplift::LinearUplift;
 pub use matrix::Matrix3;
+pub use metamer::{metameric_black, metamers};
 pub use observer::Observer;
 pub use rgb_space::{
     D65_XY, LINEAR_SRGB_FROM_XYZ, LUMINANCE_SRGB, RgbSpace, XYZ_FROM_LINEAR_SRGB,
     linear_srgb_from_xyz, xyz_of_xy,
 };
 pub use samples::{Rgb, Samples};
+pub use sigmoid::{Sigmoid, SigmoidFit, SigmoidFitter};
 pub use spectral::{Outside, Spectrum, SpectrumError};
 pub use transfer::{srgb_decode, srgb_encode};
 pub use tristimulus::{Viewing, white_xyz};

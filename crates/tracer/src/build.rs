@@ -5,7 +5,7 @@ use crate::geometry::{Geometry, TriangleInfo};
 use crate::light::{Emitter, Light, Lights, RectLight, SphereLight, TriangleLight};
 use crate::mode::{Emission, Mode};
 use crate::path::NONE;
-use crate::scene::{Description, Object, Scene, SceneError, Surface};
+use crate::scene::{Description, MAX_PRIMITIVES, Object, Scene, SceneError, Surface};
 use crate::shape::{Mesh, Quad, Shape, Sphere, Triangle};
 use glam::{DVec3, Vec3};
 use std::f64::consts::PI;
@@ -66,7 +66,7 @@ impl<const N: usize, S: Mode<N>> Builder<N, S> {
                 })?;
         }
         let primitives = self.sphere_objects.len() + self.quad_objects.len() + self.loose.len();
-        if primitives > (u32::MAX >> 2) as usize {
+        if primitives > MAX_PRIMITIVES as usize {
             return Err(SceneError::TooMany);
         }
         self.close_geometry(&objects);
@@ -316,12 +316,19 @@ impl<const N: usize, S: Mode<N>> Builder<N, S> {
         let triangles: Vec<_> = loose.iter().map(|l| l.triangle).collect();
         let (bvh, order) = Bvh::new(&triangles);
         self.geometry.bvh = Some(bvh);
-        self.geometry.triangles = order.iter().map(|&i| loose[i as usize].info).collect();
+        self.geometry.triangles = (order.iter())
+            .map(|&i| {
+                loose
+                    .get(i as usize)
+                    .map_or(TriangleInfo::SPARE, |l| l.info)
+            })
+            .collect();
         let base = self.geometry.first_triangle();
         for shining in std::mem::take(&mut self.shining) {
             let (members, prims): (Vec<_>, Vec<_>) = (order.iter().zip(base..))
-                .filter(|(i, _)| loose[**i as usize].info.object as usize == shining.object)
-                .map(|(&i, prim)| (loose[i as usize].triangle, prim))
+                .filter_map(|(&i, prim)| Some((loose.get(i as usize)?, prim)))
+                .filter(|(l, _)| l.info.object as usize == shining.object)
+                .map(|(l, prim)| (l.triangle, prim))
                 .unzip();
             if let Some(light) = TriangleLight::new(members, prims) {
                 let emission = objects[shining.object].emission.as_ref();
@@ -345,7 +352,7 @@ impl<const N: usize, S: Mode<N>> Builder<N, S> {
         }
         self.quad_corners.iter().flatten().for_each(|&p| grow(p));
         if let Some(bvh) = &self.geometry.bvh {
-            bvh.corners().for_each(grow);
+            bvh.bounds().into_iter().for_each(grow);
         }
         let diagonal = f64::from((high - low).length());
         if diagonal.is_finite() {

@@ -69,6 +69,14 @@ pub(crate) struct TriangleInfo {
     pub(crate) normals: u32,
 }
 
+impl TriangleInfo {
+    /// Of a lane of a leaf that no triangle takes.
+    pub(crate) const SPARE: Self = Self {
+        object: NONE,
+        normals: NONE,
+    };
+}
+
 /// The primitives: spheres first, then quads, then triangles in leaf order.
 #[derive(Debug, Default)]
 pub(crate) struct Geometry {
@@ -79,7 +87,7 @@ pub(crate) struct Geometry {
     pub(crate) objects: Vec<u32>,
     /// Of every sphere, then of every quad.
     anchors: Vec<Anchor>,
-    /// Per triangle, in leaf order.
+    /// Per lane of the leaves, some of them [`TriangleInfo::SPARE`].
     pub(crate) triangles: Vec<TriangleInfo>,
     pub(crate) normals: Vec<Vec3>,
 }
@@ -138,17 +146,7 @@ impl Geometry {
             id += 1;
         }
         if let Some(bvh) = &self.bvh {
-            for k in 0..LANES {
-                if hits.t[k] > 0.0 {
-                    let skip = (rays.from[k] >> 1).wrapping_sub(id);
-                    if let Some((t, i)) = bvh.closest(rays.o.get(k), rays.d.get(k), hits.t[k], skip)
-                    {
-                        hits.t[k] = t;
-                        hits.prim[k] = id + i;
-                        hits.back[k] = u32::from(bvh.normal(i).dot(rays.d.get(k)) > 0.0);
-                    }
-                }
-            }
+            bvh.closest(rays, id, hits);
         }
     }
 
@@ -166,16 +164,7 @@ impl Geometry {
             id += 1;
         }
         if let Some(bvh) = &self.bvh {
-            for k in 0..LANES {
-                if blocked[k] == 0 && rays.t_max[k] > 0.0 {
-                    let skip = [
-                        (rays.from[k] >> 1).wrapping_sub(id),
-                        target[k].wrapping_sub(id),
-                    ];
-                    let hit = bvh.blocked(rays.o.get(k), rays.d.get(k), rays.t_max[k], skip);
-                    blocked[k] = u32::from(hit);
-                }
-            }
+            bvh.blocked(rays, id, target, &mut blocked);
         }
         blocked
     }

@@ -17,6 +17,7 @@ mod build;
 mod build_lights;
 mod bvh;
 mod camera;
+mod cast;
 mod estimate;
 mod film;
 mod filter;
@@ -35,6 +36,7 @@ mod stats;
 mod vertex;
 
 pub use camera::Camera;
+pub use cast::{Ray, RayHit};
 pub use estimate::Estimate;
 pub use film::{Film, RestoreError, Tile};
 pub use filter::PixelFilter;

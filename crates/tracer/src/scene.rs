@@ -2,9 +2,10 @@
 
 use crate::build::Builder;
 use crate::camera::Camera;
-use crate::geometry::Geometry;
+use crate::geometry::{Geometry, TriangleInfo};
 use crate::light::{Environment, Lights, PointLight};
 use crate::mode::{Fixed, Mode};
+use crate::path::NONE;
 use crate::shape::Shape;
 use brdf::Material;
 use glam::DAffine3;
@@ -66,6 +67,10 @@ impl<const N: usize, S: Mode<N>> std::fmt::Debug for Description<N, S> {
     }
 }
 
+/// Primitives a scene may have: two bits of an index tell sides apart, and three the lanes of a leaf that may hold a
+/// single triangle.
+pub(crate) const MAX_PRIMITIVES: u32 = u32::MAX >> 5;
+
 /// Why a description makes no scene.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -93,7 +98,7 @@ pub enum SceneError {
     #[error("environment: {0}")]
     Environment(&'static str),
     /// More primitives than can be counted.
-    #[error("more than {} primitives", u32::MAX >> 2)]
+    #[error("more than {} primitives", MAX_PRIMITIVES)]
     TooMany,
 }
 
@@ -129,7 +134,7 @@ impl<const N: usize, S: Mode<N>> std::fmt::Debug for Scene<N, S> {
         f.debug_struct("Scene")
             .field("camera", &self.camera)
             .field("materials", &self.materials.len())
-            .field("triangles", &self.geometry.triangles.len())
+            .field("triangles", &self.triangles())
             .finish_non_exhaustive()
     }
 }
@@ -156,7 +161,8 @@ impl<const N: usize, S: Mode<N>> Scene<N, S> {
     /// Triangles that are rendered.
     #[must_use]
     pub fn triangles(&self) -> usize {
-        self.geometry.triangles.len()
+        let taken = |t: &&TriangleInfo| t.object != NONE;
+        self.geometry.triangles.iter().filter(taken).count()
     }
 
     /// Triangles that were left out since they have no area.

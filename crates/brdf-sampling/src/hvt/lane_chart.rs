@@ -3,8 +3,12 @@
 //! Directions rounded to f32 leave the half vector uncertain by 1e-7, so that densities of lobes of width r0 agree
 //! with the f64 form to some 1e-7 / r0.
 
+use super::slices;
 use crate::lane_math::{F, TINY, ZERO, pseudo_exp, pseudo_log};
 use brdf::{LANES, Lanes3};
+
+/// r0^2 and its inverse.
+pub(crate) type Scale2 = [f32; 2];
 
 /// Viewer-dependent quantities.
 pub(crate) struct Views {
@@ -13,22 +17,21 @@ pub(crate) struct Views {
     cos_phi: F,
     sin_phi: F,
     span: F,
-    /// Slice coordinate, 0 to `n_theta` - 1.
-    pub(crate) slice: F,
+    /// Slice coordinate of elevation, 0 to 1.
+    pub(crate) tau: F,
 }
 
 impl Views {
     #[inline(always)]
-    pub(crate) fn new(wo: &Lanes3, r0: f32, n_theta: usize) -> Self {
+    pub(crate) fn new(wo: &Lanes3, scale2: Scale2) -> Self {
         let mut v = Self {
             sin_o: ZERO,
             cos_o: ZERO,
             cos_phi: ZERO,
             sin_phi: ZERO,
             span: ZERO,
-            slice: ZERO,
+            tau: ZERO,
         };
-        let (inv_r0, slices) = (1.0 / r0, (n_theta - 1) as f32);
         for k in 0..LANES {
             let r2 = wo.x[k] * wo.x[k] + wo.y[k] * wo.y[k];
             let r = r2.sqrt();
@@ -37,11 +40,10 @@ impl Views {
             v.cos_phi[k] = if flat { wo.x[k] * inv } else { 1.0 };
             v.sin_phi[k] = if flat { wo.y[k] * inv } else { 0.0 };
             let (s, c) = (r.min(1.0), wo.z[k].clamp(TINY, 1.0));
-            let c_min = (0.5 - 0.5 * s).sqrt();
-            let max2 = 2.0 - 2.0 * c_min;
-            v.span[k] = pseudo_log((max2.sqrt() + (max2 + r0 * r0).sqrt()) * inv_r0).0;
-            let tau = 1.0 - (1.0 - (1.0 - c).sqrt()).max(0.0).sqrt();
-            v.slice[k] = tau * slices;
+            // 1 - s without cancellation near grazing
+            let min_cos_h = (0.5 * c * c / (1.0 + s)).sqrt();
+            v.span[k] = pseudo_log(1.0 + (2.0 - 2.0 * min_cos_h) * scale2[1]).0;
+            v.tau[k] = slices::tau_f32(min_cos_h);
             v.sin_o[k] = s;
             v.cos_o[k] = c;
         }
@@ -58,15 +60,13 @@ pub(crate) struct Points {
 
 /// Fills the Jacobians of the points and returns their directions.
 #[inline(always)]
-pub(crate) fn forward(v: &Views, r0: f32, points: &mut Points) -> Lanes3 {
+pub(crate) fn forward(v: &Views, scale2: Scale2, points: &mut Points) -> Lanes3 {
     let mut wi = Lanes3::ZERO;
     for k in 0..LANES {
-        let (y, y_slope) = pseudo_exp(points.a[k] * v.span[k]);
-        let inv_y = 1.0 / y;
-        let r = 0.5 * r0 * (y - 1.0) * (y + 1.0) * inv_y;
-        let root = 0.5 * r0 * (y + inv_y);
-        let c = 1.0 - 0.5 * r * r;
-        let s = r * (1.0 - 0.25 * r * r).max(0.0).sqrt();
+        let (minus_one, slope) = pseudo_exp(points.a[k] * v.span[k]);
+        let r2 = scale2[0] * minus_one;
+        let c = 1.0 - 0.5 * r2;
+        let s = (r2 * (1.0 - 0.25 * r2)).max(0.0).sqrt();
         let max = half_max(v.sin_o[k], v.cos_o[k], s, c);
         let t_max = (0.5 * max / (1.0 + (1.0 - max).sqrt())).sqrt();
         let t = (2.0 * points.b[k] - 1.0) * t_max;
@@ -80,20 +80,19 @@ pub(crate) fn forward(v: &Views, r0: f32, points: &mut Points) -> Lanes3 {
         wi.x[k] = x * v.cos_phi[k] - side * v.sin_phi[k];
         wi.y[k] = x * v.sin_phi[k] + side * v.cos_phi[k];
         wi.z[k] = (2.0 * wo_h * c - v.cos_o[k]).max(TINY);
-        let jacobian = 32.0 * wo_h * r * root * v.span[k] * t_max / (y_slope * cos_quarter);
+        let jacobian = 16.0 * wo_h * (scale2[0] + r2) * v.span[k] * t_max / (slope * cos_quarter);
         points.jacobian[k] = jacobian.max(f32::MIN_POSITIVE);
     }
     wi
 }
 
 #[inline(always)]
-pub(crate) fn inverse(v: &Views, r0: f32, wi: &Lanes3) -> Points {
+pub(crate) fn inverse(v: &Views, scale2: Scale2, wi: &Lanes3) -> Points {
     let mut p = Points {
         a: ZERO,
         b: ZERO,
         jacobian: ZERO,
     };
-    let inv_r0 = 1.0 / r0;
     for k in 0..LANES {
         let hx = wi.x[k] * v.cos_phi[k] + wi.y[k] * v.sin_phi[k] + v.sin_o[k];
         let hy = wi.y[k] * v.cos_phi[k] - wi.x[k] * v.sin_phi[k];
@@ -101,9 +100,8 @@ pub(crate) fn inverse(v: &Views, r0: f32, wi: &Lanes3) -> Points {
         let xy2 = hx * hx + hy * hy;
         let len2 = xy2 + hz * hz;
         let (len, xy) = (len2.sqrt(), xy2.sqrt());
-        let r = xy * (2.0 / (len2 + len * hz)).sqrt();
-        let root = (r * r + r0 * r0).sqrt();
-        let (l, y_slope) = pseudo_log(((r + root) * inv_r0).max(1.0));
+        let r2 = 2.0 * xy2 / (len2 + len * hz);
+        let (l, slope) = pseudo_log(1.0 + r2 * scale2[1]);
         let e = xy + hx.abs();
         let inv = 1.0 / (2.0 * xy * e).max(f32::MIN_POSITIVE);
         let (large, small) = ((e * e * inv).min(1.0), (hy * hy * inv).min(1.0));
@@ -117,7 +115,7 @@ pub(crate) fn inverse(v: &Views, r0: f32, wi: &Lanes3) -> Points {
         let reach = (max / (one_plus_max * one_plus)).sqrt();
         p.a[k] = (l / v.span[k]).min(1.0);
         p.b[k] = 0.5 + 0.5 * ratio.copysign(hy);
-        let jacobian = 16.0 * len * r * root * v.span[k] * reach / y_slope;
+        let jacobian = 8.0 * len * (scale2[0] + r2) * v.span[k] * reach / slope;
         p.jacobian[k] = jacobian.max(f32::MIN_POSITIVE);
     }
     p

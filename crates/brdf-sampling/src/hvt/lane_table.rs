@@ -4,7 +4,7 @@ use super::minifloat::decode_low_byte;
 use super::options::MAX_B;
 use super::table::{Table, linear};
 use crate::lane_math::{F, ZERO};
-use brdf::LANES;
+use brdf::{LANES, Lanes3};
 
 /// Indices, one a lane.
 type Index = [u32; LANES];
@@ -12,56 +12,62 @@ type Index = [u32; LANES];
 /// The nodes of a row that one word holds.
 const WORD: usize = 4;
 
-/// Where viewers lie between slices.
-pub(super) struct Places {
-    slice: Index,
-    t: F,
-    /// Factors of the decoded nodes of either slice: (1 - t) scale_k, t scale_{k+1}.
-    factor: [F; 2],
+/// Where viewers lie between `S` slices.
+pub(super) struct Places<const S: usize> {
+    slice: [Index; S],
+    weight: [F; S],
+    /// Factors of the decoded nodes: weight times scale.
+    factor: [F; S],
     /// Weight of the cosine lobe.
     pub(super) lobe: F,
 }
 
-impl Places {
-    /// The blends at slice coordinates in [0, n_theta - 1].
+impl<const S: usize> Places<S> {
+    /// The blends of viewers toward `wo` at slice coordinates `tau` in [0, 1].
     #[inline(always)]
-    pub(super) fn new(table: &Table, x: &F) -> Self {
-        let last = (table.shape.n_theta - 2) as u32;
-        let (mut slice, mut t) = ([0; LANES], ZERO);
+    pub(super) fn new(table: &Table, tau: &F, wo: &Lanes3) -> Self {
+        let shape = table.shape;
+        let last = (shape.n_theta - 2) as u32;
+        let mut p = Self {
+            slice: [[0; LANES]; S],
+            weight: [ZERO; S],
+            factor: [ZERO; S],
+            lobe: ZERO,
+        };
         for k in 0..LANES {
-            slice[k] = (x[k] as u32).min(last);
-            t[k] = x[k] - slice[k] as f32;
+            let x = tau[k] * (last + 1) as f32;
+            let low = (x as u32).min(last);
+            let t = x - low as f32;
+            if S == 2 {
+                (p.slice[0][k], p.slice[1][k]) = (low, low + 1);
+                (p.weight[0][k], p.weight[1][k]) = (1.0 - t, t);
+            } else {
+                let [j0, j1, v] = shape.around(wo.x[k], wo.y[k]);
+                let at = |j: f32| j as u32 * shape.n_theta as u32 + low;
+                for (s, (slice, w)) in [(at(j0), 1.0 - v), (at(j1), v)].into_iter().enumerate() {
+                    (p.slice[2 * s][k], p.slice[2 * s + 1][k]) = (slice, slice + 1);
+                    (p.weight[2 * s][k], p.weight[2 * s + 1][k]) = (w * (1.0 - t), w * t);
+                }
+            }
         }
-        let (scales, lobes) = (pairs(&table.scale, &slice), pairs(&table.lobe, &slice));
-        let (mut factor, mut lobe) = ([ZERO; 2], ZERO);
-        for k in 0..LANES {
-            factor[0][k] = (1.0 - t[k]) * scales[0][k];
-            factor[1][k] = t[k] * scales[1][k];
-            lobe[k] = (1.0 - t[k]) * lobes[0][k] + t[k] * lobes[1][k];
+        for s in 0..S {
+            let (mut scale, mut lobe) = (ZERO, ZERO);
+            for k in 0..LANES {
+                let at = p.slice[s][k] as usize;
+                (scale[k], lobe[k]) = (table.scale[at], table.lobe[at]);
+            }
+            for k in 0..LANES {
+                p.factor[s][k] = p.weight[s][k] * scale[k];
+                p.lobe[k] += p.weight[s][k] * lobe[k];
+            }
         }
-        Self {
-            slice,
-            t,
-            factor,
-            lobe,
-        }
+        p
     }
-}
-
-/// Neighbours in a list.
-#[inline(always)]
-fn pairs(list: &[f32], at: &Index) -> [F; 2] {
-    let mut out = [ZERO; 2];
-    for k in 0..LANES {
-        let pair = &list[at[k] as usize..][..2];
-        (out[0][k], out[1][k]) = (pair[0], pair[1]);
-    }
-    out
 }
 
 /// The bilinear densities at (a, b) in [0, 1]^2.
 #[inline(always)]
-pub(super) fn density(table: &Table, places: &Places, a: &F, b: &F) -> F {
+pub(super) fn density<const S: usize>(table: &Table, places: &Places<S>, a: &F, b: &F) -> F {
     let (nb, n) = (table.shape.n_b, table.shape.slice());
     let (last_a, last_b) = ((table.shape.n_a - 2) as u32, (nb - 2) as u32);
     let (mut x, mut y, mut node): (F, F, Index) = (ZERO, ZERO, [0; LANES]);
@@ -69,27 +75,28 @@ pub(super) fn density(table: &Table, places: &Places, a: &F, b: &F) -> F {
         let (u, v) = (a[k] * (last_a + 1) as f32, b[k] * (last_b + 1) as f32);
         let (i, j) = ((u as u32).min(last_a), (v as u32).min(last_b));
         (x[k], y[k]) = (u - i as f32, v - j as f32);
-        node[k] = places.slice[k] * n as u32 + i * nb as u32 + j;
+        node[k] = i * nb as u32 + j;
     }
-    let mut corners = [[0_u32; LANES]; 4];
-    for k in 0..LANES {
-        let q = &table.nodes()[node[k] as usize..][..n + nb + 2];
-        let pair = |at: usize| u32::from(u16::from_le_bytes([q[at], q[at + 1]]));
-        corners[0][k] = pair(0);
-        corners[1][k] = pair(nb);
-        corners[2][k] = pair(n);
-        corners[3][k] = pair(n + nb);
+    let (mut low, mut high) = (ZERO, ZERO);
+    for s in 0..S {
+        let mut pairs = [[0_u32; LANES]; 2];
+        for k in 0..LANES {
+            let q = &table.nodes()[places.slice[s][k] as usize * n + node[k] as usize..][..nb + 2];
+            let pair = |at: usize| u32::from(u16::from_le_bytes([q[at], q[at + 1]]));
+            (pairs[0][k], pairs[1][k]) = (pair(0), pair(nb));
+        }
+        for k in 0..LANES {
+            let along = |q: u32| {
+                let (left, right) = (decode_low_byte(q), decode_low_byte(q >> 8));
+                left + y[k] * (right - left)
+            };
+            low[k] += places.factor[s][k] * along(pairs[0][k]);
+            high[k] += places.factor[s][k] * along(pairs[1][k]);
+        }
     }
     let mut out = ZERO;
     for k in 0..LANES {
-        let along = |q: u32| {
-            let (left, right) = (decode_low_byte(q), decode_low_byte(q >> 8));
-            left + y[k] * (right - left)
-        };
-        let [f, g] = [places.factor[0][k], places.factor[1][k]];
-        let low = f * along(corners[0][k]) + g * along(corners[2][k]);
-        let high = f * along(corners[1][k]) + g * along(corners[3][k]);
-        out[k] = low + x[k] * (high - low);
+        out[k] = low[k] + x[k] * (high[k] - low[k]);
     }
     out
 }
@@ -103,7 +110,7 @@ pub(super) struct Hit {
 
 /// The points whose marginal mass is `u` of a and whose conditional mass fraction is `v` of b; `u` in [0, 1 - lobe).
 #[inline(always)]
-pub(super) fn invert(table: &Table, places: &Places, u: &F, v: &F) -> Hit {
+pub(super) fn invert<const S: usize>(table: &Table, places: &Places<S>, u: &F, v: &F) -> Hit {
     let (row, fraction) = row_of(table, places, u);
     let rows = Rows::new(table, places, &row);
     let nb = table.shape.n_b;
@@ -146,13 +153,8 @@ pub(super) fn invert(table: &Table, places: &Places, u: &F, v: &F) -> Hit {
 
 /// The interval of rows in which the blended marginal reaches `u`, and the fraction of its mass.
 #[inline(always)]
-fn row_of(table: &Table, places: &Places, u: &F) -> (Index, F) {
-    let na = table.shape.n_a;
-    let mut base = [0; LANES];
-    for k in 0..LANES {
-        base[k] = places.slice[k] * na as u32;
-    }
-    let (mut at, mut len) = (base, na - 1);
+fn row_of<const S: usize>(table: &Table, places: &Places<S>, u: &F) -> (Index, F) {
+    let (mut at, mut len) = ([0; LANES], table.shape.n_a - 1);
     while len > 1 {
         let half = len / 2;
         let mass = below(table, places, &at, half);
@@ -164,23 +166,24 @@ fn row_of(table: &Table, places: &Places, u: &F) -> (Index, F) {
     let (low, high) = (below(table, places, &at, 0), below(table, places, &at, 1));
     let mut fraction = ZERO;
     for k in 0..LANES {
-        at[k] -= base[k];
         fraction[k] = ((u[k] - low[k]) / (high[k] - low[k])).clamp(0.0, 1.0);
     }
     (at, fraction)
 }
 
-/// Blended mass below row `at + offset`; `at` counts the rows of all slices.
+/// Blended mass below row `at + offset`.
 #[inline(always)]
-fn below(table: &Table, places: &Places, at: &Index, offset: usize) -> F {
+fn below<const S: usize>(table: &Table, places: &Places<S>, at: &Index, offset: usize) -> F {
     let na = table.shape.n_a;
-    let (mut low, mut high, mut out) = (ZERO, ZERO, ZERO);
-    for k in 0..LANES {
-        let from = &table.below()[at[k] as usize + offset..][..na + 1];
-        (low[k], high[k]) = (from[0], from[na]);
-    }
-    for k in 0..LANES {
-        out[k] = low[k] + places.t[k] * (high[k] - low[k]);
+    let mut out = ZERO;
+    for s in 0..S {
+        let mut mass = ZERO;
+        for k in 0..LANES {
+            mass[k] = table.below()[places.slice[s][k] as usize * na + at[k] as usize + offset];
+        }
+        for k in 0..LANES {
+            out[k] += places.weight[s][k] * mass[k];
+        }
     }
     out
 }
@@ -201,37 +204,39 @@ impl Rows {
     }
 
     #[inline(always)]
-    fn new(table: &Table, places: &Places, row: &Index) -> Self {
+    fn new<const S: usize>(table: &Table, places: &Places<S>, row: &Index) -> Self {
         let (nb, n) = (table.shape.n_b, table.shape.slice());
         let mut rows = Self {
             low: [ZERO; MAX_B],
             high: [ZERO; MAX_B],
             mass: [ZERO; 2],
         };
-        for group in 0..nb.div_ceil(WORD) {
-            let mut words = [[0_u32; LANES]; 4];
-            for k in 0..LANES {
-                let node = places.slice[k] as usize * n + row[k] as usize * nb + WORD * group;
-                let q = &table.nodes()[node..][..n + nb + WORD];
-                let word = |at: usize| u32::from_le_bytes([q[at], q[at + 1], q[at + 2], q[at + 3]]);
-                words[0][k] = word(0);
-                words[1][k] = word(nb);
-                words[2][k] = word(n);
-                words[3][k] = word(n + nb);
+        for group in 0..nb / WORD {
+            for s in 0..S {
+                let mut words = [[0_u32; LANES]; 2];
+                for k in 0..LANES {
+                    let node =
+                        places.slice[s][k] as usize * n + row[k] as usize * nb + WORD * group;
+                    let q = &table.nodes()[node..][..nb + WORD];
+                    let word =
+                        |at: usize| u32::from_le_bytes([q[at], q[at + 1], q[at + 2], q[at + 3]]);
+                    (words[0][k], words[1][k]) = (word(0), word(nb));
+                }
+                for j in WORD * group..WORD * (group + 1) {
+                    let shift = 8 * (j % WORD) as u32;
+                    for k in 0..LANES {
+                        let f = places.factor[s][k];
+                        rows.low[j][k] += f * decode_low_byte(words[0][k] >> shift);
+                        rows.high[j][k] += f * decode_low_byte(words[1][k] >> shift);
+                    }
+                }
             }
-            for j in WORD * group..(WORD * (group + 1)).min(nb) {
-                let shift = 8 * (j % WORD) as u32;
+            for j in WORD * group..WORD * (group + 1) {
                 // the trapezoid rule: half weights at both ends
                 let weight = if j == 0 || j + 1 == nb { 0.5 } else { 1.0 };
                 for k in 0..LANES {
-                    let [f, g] = [places.factor[0][k], places.factor[1][k]];
-                    let node = |w: u32| decode_low_byte(w >> shift);
-                    let low = f * node(words[0][k]) + g * node(words[2][k]);
-                    let high = f * node(words[1][k]) + g * node(words[3][k]);
-                    rows.mass[0][k] += weight * low;
-                    rows.mass[1][k] += weight * high;
-                    rows.low[j][k] = low;
-                    rows.high[j][k] = high;
+                    rows.mass[0][k] += weight * rows.low[j][k];
+                    rows.mass[1][k] += weight * rows.high[j][k];
                 }
             }
         }

@@ -3,7 +3,7 @@
 //! Arithmetic runs in loops over lanes, which the compiler vectorises; tables are read in loops of their own, lane
 //! by lane, which it can't. All of it is inlined always: whoever calls decides the instruction set.
 
-use super::lane_chart::{Points, Views, forward, inverse};
+use super::lane_chart::{Points, Scale2, Views, forward, inverse};
 use super::lane_table::{Hit, Places, density, invert};
 use super::table::Table;
 use crate::lane_math::{F, ZERO, cosine_hemisphere};
@@ -12,10 +12,10 @@ use std::f32::consts::FRAC_1_PI;
 
 /// Densities of `wi`; 0 where either direction is below the horizon.
 #[inline(always)]
-pub(crate) fn pdf(table: &Table, r0: f32, wi: &Lanes3, wo: &Lanes3) -> F {
-    let views = Views::new(wo, r0, table.shape.n_theta);
-    let points = inverse(&views, r0, wi);
-    let places = Places::new(table, &views.slice);
+pub(crate) fn pdf<const S: usize>(table: &Table, scale2: Scale2, wi: &Lanes3, wo: &Lanes3) -> F {
+    let views = Views::new(wo, scale2);
+    let points = inverse(&views, scale2, wi);
+    let places = Places::<S>::new(table, &views.tau, wo);
     let body = density(table, &places, &points.a, &points.b);
     let mut out = ZERO;
     for k in 0..LANES {
@@ -28,9 +28,14 @@ pub(crate) fn pdf(table: &Table, r0: f32, wi: &Lanes3, wo: &Lanes3) -> F {
 
 /// Directions and their densities.
 #[inline(always)]
-pub(crate) fn sample(table: &Table, r0: f32, wo: &Lanes3, u: &[F; 2]) -> SampleLanes {
-    let views = Views::new(wo, r0, table.shape.n_theta);
-    let places = Places::new(table, &views.slice);
+pub(crate) fn sample<const S: usize>(
+    table: &Table,
+    scale2: Scale2,
+    wo: &Lanes3,
+    u: &[F; 2],
+) -> SampleLanes {
+    let views = Views::new(wo, scale2);
+    let places = Places::<S>::new(table, &views.tau, wo);
     let (mut in_body, mut any_lobe) = (ZERO, false);
     for k in 0..LANES {
         let body = 1.0 - places.lobe[k];
@@ -44,7 +49,7 @@ pub(crate) fn sample(table: &Table, r0: f32, wo: &Lanes3, u: &[F; 2]) -> SampleL
     } = invert(table, &places, &in_body, &u[1]);
     let mut drawn = Drawn::new(
         &views,
-        r0,
+        scale2,
         Points {
             a,
             b,
@@ -53,7 +58,11 @@ pub(crate) fn sample(table: &Table, r0: f32, wo: &Lanes3, u: &[F; 2]) -> SampleL
         body,
     );
     if any_lobe {
-        drawn.replace(&Drawn::by_cosine(table, r0, &views, &places, u), &places, u);
+        drawn.replace(
+            &Drawn::by_cosine(table, scale2, &views, &places, u),
+            &places.lobe,
+            u,
+        );
     }
     let mut out = ZERO;
     for k in 0..LANES {
@@ -75,9 +84,9 @@ struct Drawn {
 
 impl Drawn {
     #[inline(always)]
-    fn new(views: &Views, r0: f32, mut points: Points, body: F) -> Self {
+    fn new(views: &Views, scale2: Scale2, mut points: Points, body: F) -> Self {
         Self {
-            wi: forward(views, r0, &mut points),
+            wi: forward(views, scale2, &mut points),
             body,
             jacobian: points.jacobian,
         }
@@ -85,13 +94,19 @@ impl Drawn {
 
     /// What the cosine lobe draws, for all lanes.
     #[inline(always)]
-    fn by_cosine(table: &Table, r0: f32, views: &Views, places: &Places, u: &[F; 2]) -> Self {
+    fn by_cosine<const S: usize>(
+        table: &Table,
+        scale2: Scale2,
+        views: &Views,
+        places: &Places<S>,
+        u: &[F; 2],
+    ) -> Self {
         let mut x = ZERO;
         for k in 0..LANES {
             x[k] = (u[0][k] - (1.0 - places.lobe[k])) / places.lobe[k];
         }
         let wi = cosine_hemisphere(&x, &u[1]);
-        let points = inverse(views, r0, &wi);
+        let points = inverse(views, scale2, &wi);
         Self {
             wi,
             body: density(table, places, &points.a, &points.b),
@@ -101,9 +116,9 @@ impl Drawn {
 
     /// Takes `other` in the lanes whose first number falls to the cosine lobe.
     #[inline(always)]
-    fn replace(&mut self, other: &Self, places: &Places, u: &[F; 2]) {
+    fn replace(&mut self, other: &Self, lobe: &F, u: &[F; 2]) {
         for k in 0..LANES {
-            let chosen = u[0][k] >= 1.0 - places.lobe[k];
+            let chosen = u[0][k] >= 1.0 - lobe[k];
             let pick = |a: f32, b: f32| if chosen { b } else { a };
             self.wi.x[k] = pick(self.wi.x[k], other.wi.x[k]);
             self.wi.y[k] = pick(self.wi.y[k], other.wi.y[k]);

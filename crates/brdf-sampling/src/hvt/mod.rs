@@ -19,59 +19,57 @@ mod validation;
 
 pub use options::{HvtOptions, MAX_B, Preset};
 
-use crate::chart::{Chart, ChartPoint};
+use crate::chart::Chart;
 use crate::cosine::{cosine_hemisphere, cosine_pdf};
-use crate::known_grid::ViewFrame;
+use crate::known_grid::UnitView;
 use crate::target::Target;
 use brdf::{DirectionSample, DirectionSampler, LANES, Lanes3, SampleLanes};
 use glam::{DVec2, DVec3};
 use optimise::{Effort, optimise};
 use problem::{Problem, Unknowns};
 use rayon::prelude::*;
-use shape::Shape;
+use shape::{Blend, Shape};
 use table::{Place, Table};
 pub(crate) use validation::Validation;
 
 /// Radial scales tried, radians.
 const SCALES: [f64; 9] = [0.0007, 0.002, 0.005, 0.012, 0.03, 0.07, 0.16, 0.4, 1.0];
 
-/// A direction sampler of least variance for isotropic targets; anisotropic ones are averaged over the viewer's
-/// azimuth, which stays exact but loses variance.
+/// Half the step between them, as a factor.
+const HALFWAY: f64 = 1.57;
+
+/// A direction sampler of least variance. Isotropic targets have slices of the viewer's elevation, others of its
+/// azimuth as well.
 #[derive(Clone, Debug)]
 pub struct Hvt {
     table: Table,
     r0: f64,
+    /// r0^2 and its inverse.
+    scale2: [f64; 2],
     predicted: f64,
 }
 
 /// The slice below a viewer among `n` slices even in tau, and the weight of the one above.
-pub(crate) fn slice_blend(cos_o: f64, n: usize) -> (usize, f64) {
-    slices::blend(slices::tau(cos_o.min(1.0)), n)
+pub(crate) fn slice_blend(wo: DVec3, n: usize) -> (usize, f64) {
+    let sin_o = wo.x.hypot(wo.y).min(1.0);
+    let tau = slices::tau((0.5 - 0.5 * sin_o).sqrt());
+    slices::blend(f64::from(tau), n)
 }
 
-/// The viewer-dependent half of every query.
-struct View {
-    frame: ViewFrame,
+/// The viewer-dependent half of every query, for `S` slices around.
+struct View<const S: usize> {
     chart: Chart,
-    place: Place,
+    place: Place<S>,
     lobe: f64,
 }
 
 impl Hvt {
-    /// Evaluates the target at some 10^5 points and optimises; rayon over viewers.
+    /// Evaluates the target at some 10^5 points, 10^6 if it is anisotropic, and optimises; rayon over viewers.
     ///
     /// A target that is zero everywhere gives the cosine.
     #[must_use]
     pub fn new(target: Target<'_>, options: HvtOptions) -> Self {
-        if target.symmetry.isotropic {
-            return Self::build(target, options);
-        }
-        let mean = |wi: DVec3, wo: DVec3| target.turned_mean(wi, wo);
-        Self::build(Target::new(&mean), options)
-    }
-
-    fn build(target: Target<'_>, options: HvtOptions) -> Self {
-        let shape = options.shape();
+        let shape = options.shape(target.turning());
         let r0 = match options.r0 {
             Some(r0) => r0.clamp(1e-4, 1.0),
             None => best_scale(&target, shape),
@@ -80,17 +78,28 @@ impl Hvt {
         let (x, value) = if problem.is_empty() {
             let cosine = Unknowns {
                 nodes: vec![1e-3; shape.nodes()],
-                lobe: vec![1.0; shape.n_theta],
+                lobe: vec![1.0; shape.slices()],
             };
             (cosine, 1.0)
         } else {
             optimise(&problem, options.effort())
         };
+        Self::of(Table::new(shape, x), r0, (value - 1.0).max(0.0))
+    }
+
+    fn of(table: Table, r0: f64, predicted: f64) -> Self {
         Self {
-            table: Table::new(shape, x),
+            table,
             r0,
-            predicted: (value - 1.0).max(0.0),
+            scale2: [r0 * r0, 1.0 / (r0 * r0)],
+            predicted,
         }
+    }
+
+    /// Slices of the viewer's elevation and azimuth; one azimuth for isotropic targets.
+    #[must_use]
+    pub fn slices(&self) -> [usize; 2] {
+        [self.table.shape.n_theta, self.table.shape.n_phi]
     }
 
     /// The mean relative variance at the points the table was optimised for, before rounding to bytes.
@@ -105,45 +114,53 @@ impl Hvt {
         self.r0
     }
 
-    /// f(wi, wo) as the table has it, in 1/sr, for a directional albedo `albedo` at this viewer: albedo * pdf / cos.
-    ///
-    /// An approximation, not the target: evaluated this way every sample has the weight `albedo`, so luminance is
-    /// free of noise, at a systematic error whose relative square is the relative variance of the exact mode. It
-    /// is not reciprocal. 0 below the horizon.
-    #[must_use]
-    pub fn baked(&self, wi: DVec3, wo: DVec3, albedo: f64) -> f64 {
-        if wi.z > 0.0 {
-            albedo * self.pdf(wi, wo) / wi.z
-        } else {
-            0.0
-        }
+    fn lane_scale2(&self) -> [f32; 2] {
+        self.scale2.map(|x| x as f32)
     }
 
-    /// Density of a point of the chart per unit solid angle.
-    #[inline]
-    fn density(&self, view: &View, p: &ChartPoint) -> f64 {
-        let (a, b) = (p.ab.x as f32, p.ab.y as f32);
-        let body = f64::from(self.table.density(view.place, a, b));
-        view.lobe * cosine_pdf(p.wi) + body / p.jacobian
-    }
-
-    #[inline]
-    fn finish(&self, view: &View, wi: DVec3, p: &ChartPoint) -> DirectionSample {
-        let pdf = self.density(view, p);
-        DirectionSample { wi, pdf }
-    }
-
-    #[inline]
-    fn view(&self, wo: DVec3) -> View {
-        let frame = ViewFrame::new(wo);
-        let slice = slices::tau(frame.cos_o) * (self.table.shape.n_theta - 1) as f64;
-        let place = self.table.place_at(slice as f32);
+    #[inline(always)]
+    fn view<const S: usize>(&self, o: UnitView) -> View<S> {
+        let chart = Chart::of(o.sin_o, o.wo.z, self.scale2);
+        let blend: Blend<S> = self.table.shape.blend(chart.min_cos_h, o.wo);
+        let place = self.table.place(blend);
         View {
-            frame,
-            chart: Chart::new(frame.sin_o, frame.cos_o, self.r0),
+            chart,
+            lobe: f64::from(self.table.lobe(&place)),
             place,
-            lobe: f64::from(self.table.lobe_at(place)),
         }
+    }
+
+    #[inline(always)]
+    fn sample_among<const S: usize>(&self, wo: DVec3, u: DVec2) -> DirectionSample {
+        let o = UnitView::new(wo);
+        let view: View<S> = self.view(o);
+        let body = 1.0 - view.lobe;
+        if u.x < body {
+            let hit = self.table.invert(&view.place, u.x as f32, u.y as f32);
+            let p = view.chart.forward(DVec2::new(hit.a, hit.b));
+            return DirectionSample {
+                wi: o.frame().to_world(p.wi),
+                pdf: view.lobe * cosine_pdf(p.wi) + f64::from(hit.density) / p.jacobian,
+            };
+        }
+        let wi = cosine_hemisphere(DVec2::new((u.x - body) / view.lobe, u.y));
+        DirectionSample {
+            wi,
+            pdf: self.density(&view, wi, o),
+        }
+    }
+
+    #[inline(always)]
+    fn density<const S: usize>(&self, view: &View<S>, wi: DVec3, o: UnitView) -> f64 {
+        let (ab, jacobian) = view.chart.locate(o.half(wi), o.wo.truncate());
+        let body = f64::from(self.table.density(&view.place, ab.x, ab.y));
+        view.lobe * cosine_pdf(wi) + body / jacobian
+    }
+
+    #[inline(always)]
+    fn pdf_among<const S: usize>(&self, wi: DVec3, wo: DVec3) -> f64 {
+        let o = UnitView::new(wo);
+        self.density(&self.view::<S>(o), wi, o)
     }
 }
 
@@ -151,8 +168,10 @@ impl Hvt {
 fn best_scale(target: &Target<'_>, shape: Shape) -> f64 {
     let coarse = Shape {
         n_theta: shape.n_theta.min(7),
+        n_phi: shape.n_phi.min(4),
         n_a: shape.n_a.min(32),
-        n_b: shape.n_b.min(9),
+        n_b: 8,
+        ..shape
     };
     let effort = Effort {
         multiplicative: 4,
@@ -160,23 +179,27 @@ fn best_scale(target: &Target<'_>, shape: Shape) -> f64 {
         gradients: 0,
     };
     let validation = Validation::new(target);
-    let costs: Vec<f64> = SCALES
-        .par_iter()
-        .map(|&r0| {
-            let problem = Problem::new(target, coarse, r0, 1);
-            if problem.is_empty() {
-                return f64::INFINITY;
-            }
-            let (x, _) = optimise(&problem, effort);
-            validation.variance(&Hvt {
-                table: Table::new(coarse, x),
-                r0,
-                predicted: 0.0,
-            })
-        })
-        .collect();
-    let best = (0..SCALES.len()).min_by(|&a, &b| costs[a].total_cmp(&costs[b]));
-    best.map_or(0.1, |k| SCALES[k])
+    let cost = |r0: f64| {
+        let problem = Problem::new(target, coarse, r0, 1);
+        if problem.is_empty() {
+            return f64::INFINITY;
+        }
+        let (x, _) = optimise(&problem, effort);
+        validation.variance(&Hvt::of(Table::new(coarse, x), r0, 0.0))
+    };
+    let best = |scales: &[f64]| {
+        let costs: Vec<f64> = scales.par_iter().map(|&r0| cost(r0)).collect();
+        let k = (0..scales.len()).min_by(|&a, &b| costs[a].total_cmp(&costs[b]));
+        k.map_or((f64::INFINITY, 0.1), |k| (costs[k], scales[k]))
+    };
+    let first = best(&SCALES);
+    // then halfway to the neighbours
+    let second = best(&[first.1 * HALFWAY, first.1 / HALFWAY]);
+    if second.0 < first.0 {
+        second.1
+    } else {
+        first.1
+    }
 }
 
 impl DirectionSampler for Hvt {
@@ -185,17 +208,11 @@ impl DirectionSampler for Hvt {
         if wo.z <= 0.0 {
             return None;
         }
-        let view = self.view(wo);
-        let body = 1.0 - view.lobe;
-        if u.x < body {
-            let (a, b) = self.table.invert(view.place, u.x as f32, u.y as f32);
-            let p = view.chart.forward(DVec2::new(f64::from(a), f64::from(b)));
-            let wi = view.frame.to_world(p.wi);
-            return Some(self.finish(&view, wi, &p));
-        }
-        let wi = cosine_hemisphere(DVec2::new((u.x - body) / view.lobe, u.y));
-        let p = view.chart.inverse(view.frame.to_local(wi));
-        Some(self.finish(&view, wi, &p))
+        Some(if self.table.shape.n_phi == 1 {
+            self.sample_among::<2>(wo, u)
+        } else {
+            self.sample_among::<4>(wo, u)
+        })
     }
 
     #[inline]
@@ -203,10 +220,11 @@ impl DirectionSampler for Hvt {
         if wi.z <= 0.0 || wo.z <= 0.0 {
             return 0.0;
         }
-        let view = self.view(wo);
-        let (h, xy2) = view.frame.half(wi, wo);
-        let p = view.chart.locate(h, xy2);
-        self.density(&view, &p)
+        if self.table.shape.n_phi == 1 {
+            self.pdf_among::<2>(wi, wo)
+        } else {
+            self.pdf_among::<4>(wi, wo)
+        }
     }
 
     fn bytes(&self) -> usize {
@@ -215,11 +233,19 @@ impl DirectionSampler for Hvt {
 
     #[inline(always)]
     fn sample_lanes(&self, wo: &Lanes3, u: &[[f32; LANES]; 2]) -> SampleLanes {
-        lanes::sample(&self.table, self.r0 as f32, wo, u)
+        if self.table.shape.n_phi == 1 {
+            lanes::sample::<2>(&self.table, self.lane_scale2(), wo, u)
+        } else {
+            lanes::sample::<4>(&self.table, self.lane_scale2(), wo, u)
+        }
     }
 
     #[inline(always)]
     fn pdf_lanes(&self, wi: &Lanes3, wo: &Lanes3) -> [f32; LANES] {
-        lanes::pdf(&self.table, self.r0 as f32, wi, wo)
+        if self.table.shape.n_phi == 1 {
+            lanes::pdf::<2>(&self.table, self.lane_scale2(), wi, wo)
+        } else {
+            lanes::pdf::<4>(&self.table, self.lane_scale2(), wi, wo)
+        }
     }
 }

@@ -85,7 +85,7 @@ fn for_each<G: FnOnce(&mut f64)>(
     x: &mut Unknowns,
     f: impl Fn(usize, f64, Index) -> G,
 ) {
-    for k in 0..shape.n_theta {
+    for k in 0..shape.slices() {
         f(k, 1.0, Index::Lobe(k))(&mut x.lobe[k]);
         for i in 0..shape.n_a {
             for j in 0..shape.n_b {
@@ -99,7 +99,7 @@ fn for_each<G: FnOnce(&mut f64)>(
 /// mu_k = sum over slice k of C (-dF/dC) + L (-dF/dL); 1 for slices nothing depends on.
 fn multipliers(shape: Shape, x: &Unknowns, gradient: &Unknowns) -> Vec<f64> {
     let n = shape.slice();
-    (0..shape.n_theta)
+    (0..shape.slices())
         .map(|k| {
             let nodes = x.nodes[k * n..][..n]
                 .iter()
@@ -113,7 +113,7 @@ fn multipliers(shape: Shape, x: &Unknowns, gradient: &Unknowns) -> Vec<f64> {
 /// Floors, then mass 1 per slice.
 pub(crate) fn normalise(shape: Shape, x: &mut Unknowns) {
     let n = shape.slice();
-    for k in 0..shape.n_theta {
+    for k in 0..shape.slices() {
         let nodes = &mut x.nodes[k * n..(k + 1) * n];
         let mass = shape.mass(nodes).max(f64::MIN_POSITIVE);
         for v in nodes.iter_mut() {

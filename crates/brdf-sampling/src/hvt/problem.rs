@@ -37,16 +37,15 @@ impl Unknowns {
     pub(crate) fn zero(shape: Shape) -> Self {
         Self {
             nodes: vec![0.0; shape.nodes()],
-            lobe: vec![0.0; shape.n_theta],
+            lobe: vec![0.0; shape.slices()],
         }
     }
 }
 
 /// One viewer of the quadrature.
 struct View {
-    /// Slice below and weight of the one above.
-    k: usize,
-    t: f64,
+    /// Slices around and their weights.
+    blend: Vec<(usize, f64)>,
     /// Weight among the viewers, before normalisation.
     omega: f64,
     /// Bilinear weights of the points of a cell at its corners (i,j), (i,j+1), (i+1,j), (i+1,j+1).
@@ -72,13 +71,13 @@ pub(crate) struct Pass {
 }
 
 impl Problem {
-    /// Evaluates the target at `POINTS` points of every cell for `per_interval` viewers a slice interval and at
+    /// Evaluates the target at `POINTS` points of every cell for `per_interval` viewers an interval of elevation and at
     /// the slices themselves.
     pub(crate) fn new(target: &Target<'_>, shape: Shape, r0: f64, per_interval: usize) -> Self {
-        let n = (shape.n_theta - 1) * per_interval + 1;
-        let mut views: Vec<View> = (0..n)
-            .into_par_iter()
-            .filter_map(|m| view(target, shape, r0, m, n))
+        let mut views: Vec<View> = viewers(shape, per_interval)
+            .par_iter()
+            .enumerate()
+            .filter_map(|(m, viewer)| view(target, shape, r0, m, viewer))
             .collect();
         let total: f64 = views.iter().map(|v| v.omega).sum();
         for v in &mut views {
@@ -95,10 +94,11 @@ impl Problem {
 
     /// Which slices any point touches.
     pub(crate) fn touched(&self) -> Vec<bool> {
-        let mut touched = vec![false; self.shape.n_theta];
+        let mut touched = vec![false; self.shape.slices()];
         for v in &self.views {
-            touched[v.k] |= v.t < 1.0;
-            touched[v.k + 1] |= v.t > 0.0;
+            for &(k, _) in &v.blend {
+                touched[k] = true;
+            }
         }
         touched
     }
@@ -109,7 +109,7 @@ impl Problem {
         let (mut sum, mut weight) = (Unknowns::zero(self.shape), Unknowns::zero(self.shape));
         for v in &self.views {
             let lobe = share * v.lowest_lobe();
-            for (k, t) in [(v.k, 1.0 - v.t), (v.k + 1, v.t)] {
+            for &(k, t) in &v.blend {
                 let t = t * t; // slices near the viewer count most
                 sum.lobe[k] += t * lobe;
                 weight.lobe[k] += t;
@@ -197,7 +197,8 @@ impl Problem {
         let (mut value, n) = (0.0, self.shape.slice());
         for (view, (nodes, lobe, part)) in self.views.iter().zip(parts) {
             value += part;
-            for (k, t) in [(view.k, power(1.0 - view.t)), (view.k + 1, power(view.t))] {
+            for &(k, t) in &view.blend {
+                let t = power(t);
                 out.lobe[k] += t * lobe;
                 for (o, g) in out.nodes[k * n..(k + 1) * n].iter_mut().zip(nodes) {
                     *o += t * f64::from(*g);
@@ -210,13 +211,14 @@ impl Problem {
     /// Node values and lobe weight at a viewer between slices.
     fn blended(&self, view: &View, x: &Unknowns) -> (Vec<f32>, f32) {
         let n = self.shape.slice();
-        let (low, high) = (
-            &x.nodes[view.k * n..][..n],
-            &x.nodes[(view.k + 1) * n..][..n],
-        );
-        let mix = |a: f64, b: f64| ((1.0 - view.t) * a + view.t * b) as f32;
-        let nodes = low.iter().zip(high).map(|(a, b)| mix(*a, *b)).collect();
-        (nodes, mix(x.lobe[view.k], x.lobe[view.k + 1]))
+        let (mut nodes, mut lobe) = (vec![0.0_f32; n], 0.0);
+        for &(k, t) in &view.blend {
+            lobe += t * x.lobe[k];
+            for (o, v) in nodes.iter_mut().zip(&x.nodes[k * n..][..n]) {
+                *o += (t * v) as f32;
+            }
+        }
+        (nodes, lobe as f32)
     }
 
     /// Calls `f(s, P, Q)` at every point, P from `x` and Q from `v`; gathers its first result at the nodes by the
@@ -289,13 +291,57 @@ impl View {
     }
 }
 
-/// Samples the target for viewer `m` of `n`; `None` if it is zero everywhere.
-fn view(target: &Target<'_>, shape: Shape, r0: f64, m: usize, n: usize) -> Option<View> {
-    let tau = m as f64 / (n - 1) as f64;
-    let (k, t) = slices::blend(tau, shape.n_theta);
-    let cos_o = slices::viewer(tau).1.max(MIN_COS);
-    let wo = direction(cos_o.acos(), 0.0);
-    let frame = ViewFrame::new(wo);
+/// A viewer of the quadrature: slice coordinates of elevation, [0, 1], and of azimuth, [0, n_phi).
+struct Viewer {
+    tau: f64,
+    turn: f64,
+}
+
+/// `per_interval` an interval of elevation, and the slices; where azimuths count they lie on the slices of azimuth and
+/// between them by turns.
+fn viewers(shape: Shape, per_interval: usize) -> Vec<Viewer> {
+    let n = (shape.n_theta - 1) * per_interval + 1;
+    let viewer = |m: usize, j: usize| {
+        let between = if shape.n_phi > 1 && m % 2 == 1 {
+            0.5
+        } else {
+            0.0
+        };
+        Viewer {
+            tau: m as f64 / (n - 1) as f64,
+            turn: j as f64 + between,
+        }
+    };
+    (0..n)
+        .flat_map(|m| (0..shape.n_phi).map(move |j| (m, j)))
+        .map(|(m, j)| viewer(m, j))
+        .collect()
+}
+
+/// Slices around a viewer, with weights above 0 only.
+fn blend(shape: Shape, viewer: &Viewer) -> Vec<(usize, f64)> {
+    let (k, t) = slices::blend(viewer.tau, shape.n_theta);
+    let (j, v) = (viewer.turn as usize, viewer.turn.fract());
+    let next = (j + 1) % shape.n_phi;
+    let corners = [
+        (j, k, (1.0 - v) * (1.0 - t)),
+        (j, k + 1, (1.0 - v) * t),
+        (next, k, v * (1.0 - t)),
+        (next, k + 1, v * t),
+    ];
+    corners
+        .into_iter()
+        .filter(|c| c.2 > 0.0)
+        .map(|(j, k, w)| (j * shape.n_theta + k, w))
+        .collect()
+}
+
+/// Samples the target for viewer number `m`; `None` if it is zero everywhere.
+fn view(target: &Target<'_>, shape: Shape, r0: f64, m: usize, viewer: &Viewer) -> Option<View> {
+    let cos_o = slices::viewer(viewer.tau).1.max(MIN_COS);
+    let (theta, phi) = (cos_o.acos(), shape.azimuth(viewer.turn));
+    let wo = direction(theta, phi);
+    let frame = ViewFrame::from_angles(theta, phi);
     let chart = Chart::new(frame.sin_o, frame.cos_o, r0);
     // a different offset within the cells for every viewer, by the golden section
     let shift = (m as f64 * 0.618_033_988_75).fract();
@@ -319,7 +365,7 @@ fn view(target: &Target<'_>, shape: Shape, r0: f64, m: usize, n: usize) -> Optio
                 let (x, y) = place(p);
                 let ab = DVec2::new(i as f64 + x, j as f64 + y) / size;
                 let point = chart.forward(ab);
-                values.push(target.f_cos(point.wi, wo) * point.jacobian);
+                values.push(target.f_cos(frame.to_world(point.wi), wo) * point.jacobian);
                 d.push((point.wi.z * point.jacobian * std::f64::consts::FRAC_1_PI) as f32);
             }
         }
@@ -331,9 +377,8 @@ fn view(target: &Target<'_>, shape: Shape, r0: f64, m: usize, n: usize) -> Optio
     let t_norm: Vec<f32> = values.iter().map(|v| (v / mean) as f32).collect();
     let s = t_norm.iter().map(|v| v * v / total as f32).collect();
     Some(View {
-        k,
-        t,
-        omega: slices::spread(tau) + GRAZING,
+        blend: blend(shape, viewer),
+        omega: slices::spread(viewer.tau) + GRAZING,
         hats,
         s,
         d,

@@ -1,17 +1,36 @@
 //! How many slices and nodes a half-vector table has, and how its node values are indexed.
 
+use super::slices;
+use glam::DVec3;
+
 /// Node counts of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Shape {
     /// Slices of the viewer's elevation.
     pub(crate) n_theta: usize,
+    /// Slices of its azimuth; 1 for isotropic targets.
+    pub(crate) n_phi: usize,
+    /// Whether the slices of azimuth go around half a turn, and the other half repeats them.
+    pub(crate) half_turn: bool,
     /// Nodes along the radial coordinate a.
     pub(crate) n_a: usize,
-    /// Nodes along the azimuth b.
+    /// Nodes along the azimuth b, a multiple of 8.
     pub(crate) n_b: usize,
 }
 
+/// Slices around a viewer, `S` of them: 2, or 4 where azimuths count. Weights are >= 0 and add to 1.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Blend<const S: usize> {
+    pub(crate) slice: [usize; S],
+    pub(crate) weight: [f32; S],
+}
+
 impl Shape {
+    /// Slices of all viewers.
+    pub(crate) fn slices(self) -> usize {
+        self.n_theta * self.n_phi
+    }
+
     /// Nodes of one slice.
     pub(crate) fn slice(self) -> usize {
         self.n_a * self.n_b
@@ -19,7 +38,7 @@ impl Shape {
 
     /// Nodes of all slices.
     pub(crate) fn nodes(self) -> usize {
-        self.n_theta * self.slice()
+        self.slices() * self.slice()
     }
 
     /// Cells of one slice.
@@ -42,5 +61,67 @@ impl Shape {
             }
         }
         sum
+    }
+
+    /// The slices around the viewer `wo`, whose chart ends at the given cosine of theta_h. `S` is 2 or 4: without the
+    /// azimuth, or with it.
+    #[inline(always)]
+    pub(crate) fn blend<const S: usize>(self, min_cos_h: f64, wo: DVec3) -> Blend<S> {
+        let x = slices::tau(min_cos_h) * (self.n_theta - 1) as f32;
+        let k = (x as u32).min(self.n_theta as u32 - 2);
+        let t = x - k as f32;
+        let k = k as usize;
+        let mut blend = Blend {
+            slice: [k; S],
+            weight: [0.0; S],
+        };
+        if S == 2 {
+            blend.slice[1] = k + 1;
+            (blend.weight[0], blend.weight[1]) = (1.0 - t, t);
+            return blend;
+        }
+        let [j0, j1, v] = self.around(wo.x as f32, wo.y as f32);
+        let corners = [(j0, 0, 1.0 - v), (j0, 1, 1.0 - v), (j1, 0, v), (j1, 1, v)];
+        for ((slice, weight), (j, up, w)) in
+            blend.slice.iter_mut().zip(&mut blend.weight).zip(corners)
+        {
+            *slice = j as usize * self.n_theta + k + up;
+            *weight = w * if up == 1 { t } else { 1.0 - t };
+        }
+        blend
+    }
+
+    /// The slices of azimuth on either side of the direction (x, y), and the weight of the second; numbers of slices
+    /// are whole. A direction without azimuth has azimuth 0.
+    #[inline(always)]
+    pub(crate) fn around(self, x: f32, y: f32) -> [f32; 3] {
+        let turns = slices::pseudo_turns(x, y);
+        let n = self.n_phi as f32;
+        let at = if self.half_turn { 2.0 * turns } else { turns } * n;
+        let floor = (at as u32) as f32;
+        let v = at - floor;
+        // `at` is below 2 n, up to rounding
+        let wrap = |j: f32| {
+            let j = if j >= n { j - n } else { j };
+            if j >= n { j - n } else { j }
+        };
+        [wrap(floor), wrap(floor + 1.0), v]
+    }
+
+    /// Azimuth of slices number `j`, possibly between two, radians.
+    pub(crate) fn azimuth(self, j: f64) -> f64 {
+        let turns = j / self.n_phi as f64 * if self.half_turn { 0.5 } else { 1.0 };
+        // the inverse of pseudo_turns by bisection within its quarter
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..60 {
+            let mid = 0.5 * (low + high);
+            let (s, c) = (std::f64::consts::TAU * mid).sin_cos();
+            if f64::from(slices::pseudo_turns(c as f32, s as f32)) < turns {
+                low = mid;
+            } else {
+                high = mid;
+            }
+        }
+        std::f64::consts::TAU * low
     }
 }

@@ -2,9 +2,8 @@
 
 use super::minifloat::{MAX, decode, encode};
 use super::optimise::normalise;
-use super::options::MAX_B;
 use super::problem::Unknowns;
-use super::shape::Shape;
+use super::shape::{Blend, Shape};
 
 /// Quantised densities of all slices. The density of slice k on the unit square is scale_k times the bilinear
 /// interpolant of the decoded nodes and has mass 1 - lobe_k.
@@ -22,16 +21,23 @@ pub(crate) struct Table {
 /// Bytes after the last node, so that words of four may be read anywhere.
 const PADDING: usize = 3;
 
-/// A place between two slices.
+/// A place between slices.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place {
-    k: usize,
-    t: f32,
-    /// Factors of the decoded nodes of either slice: (1 - t) scale_k, t scale_{k+1}.
-    factor: [f32; 2],
+pub(crate) struct Place<const S: usize> {
+    blend: Blend<S>,
+    /// Factors of the decoded nodes: weight times scale.
+    factor: [f32; S],
 }
 
-/// A blended row of nodes; entries beyond the row are 0.
+/// A point found by inversion, and the density there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Hit {
+    pub(crate) a: f64,
+    pub(crate) b: f64,
+    pub(crate) density: f32,
+}
+
+/// A blended row of nodes.
 type Row<const B: usize> = [f32; B];
 
 impl Table {
@@ -42,9 +48,9 @@ impl Table {
         let mut table = Self {
             shape,
             nodes: Vec::with_capacity(shape.nodes()),
-            scale: Vec::with_capacity(shape.n_theta),
+            scale: Vec::with_capacity(shape.slices()),
             lobe: x.lobe.iter().map(|l| *l as f32).collect(),
-            below: Vec::with_capacity(shape.n_theta * shape.n_a),
+            below: Vec::with_capacity(shape.slices() * shape.n_a),
         };
         for (k, values) in x.nodes.chunks_exact(n).enumerate() {
             let unit = values.iter().fold(f64::MIN_POSITIVE, |m, v| m.max(*v)) / MAX;
@@ -87,115 +93,144 @@ impl Table {
             + size_of::<f32>() * (self.scale.len() + self.lobe.len() + self.below.len())
     }
 
-    /// The blend at slice coordinate `x` in [0, `n_theta` - 1].
-    #[inline]
-    pub(crate) fn place_at(&self, x: f32) -> Place {
-        let k = (x as usize).min(self.shape.n_theta - 2);
-        let t = x - k as f32;
-        Place {
-            k,
-            t,
-            factor: [(1.0 - t) * self.scale[k], t * self.scale[k + 1]],
+    /// The slices and their factors.
+    #[inline(always)]
+    pub(crate) fn place<const S: usize>(&self, blend: Blend<S>) -> Place<S> {
+        let mut factor = blend.weight;
+        for (f, k) in factor.iter_mut().zip(blend.slice) {
+            *f *= self.scale[k];
         }
+        Place { blend, factor }
     }
 
     /// Weight of the cosine lobe.
-    #[inline]
-    pub(crate) fn lobe_at(&self, p: Place) -> f32 {
-        (1.0 - p.t) * self.lobe[p.k] + p.t * self.lobe[p.k + 1]
+    #[inline(always)]
+    pub(crate) fn lobe<const S: usize>(&self, p: &Place<S>) -> f32 {
+        let mut sum = 0.0;
+        for (w, k) in p.blend.weight.iter().zip(p.blend.slice) {
+            sum += w * self.lobe[k];
+        }
+        sum
     }
 
-    /// The bilinear density at (a, b) in [0, 1]^2.
+    /// The bilinear density at (a, b) in [0, 1]^2. Places are f64 so that `sample` and `pdf` find the same one.
     #[inline]
-    pub(crate) fn density(&self, p: Place, a: f32, b: f32) -> f32 {
+    pub(crate) fn density<const S: usize>(&self, p: &Place<S>, a: f64, b: f64) -> f32 {
         let (i, x) = split(a, self.shape.n_a);
         let (j, y) = split(b, self.shape.n_b);
         let (nb, n) = (self.shape.n_b, self.shape.slice());
+        // scalar on purpose: packed, the four nodes of a corner would wait for each other
         let corner = |slice: usize| {
             let at = slice * n + i * nb + j;
             // one bounds check for the nodes from here to the next row
             let q = &self.nodes[at..at + nb + 2];
-            let low = decode(q[0]) + y * (decode(q[1]) - decode(q[0]));
-            let high = decode(q[nb]) + y * (decode(q[nb + 1]) - decode(q[nb]));
-            low + x * (high - low)
+            let low = lerp(decode(q[0]), decode(q[1]), y);
+            let high = lerp(decode(q[nb]), decode(q[nb + 1]), y);
+            lerp(low, high, x)
         };
-        p.factor[0] * corner(p.k) + p.factor[1] * corner(p.k + 1)
+        let mut sum = 0.0;
+        for (slice, factor) in p.blend.slice.iter().zip(p.factor) {
+            sum += factor * corner(*slice);
+        }
+        sum
     }
 
     /// The point whose marginal mass is `u` of a and whose conditional mass fraction is `v` of b; `u` in [0, 1 -
     /// lobe).
     #[inline]
-    pub(crate) fn invert(&self, p: Place, u: f32, v: f32) -> (f32, f32) {
-        // loops of fixed length are worth a copy of the code for the usual rows
-        if self.shape.n_b <= MAX_B / 2 {
-            self.invert_within::<{ MAX_B / 2 }>(p, u, v)
-        } else {
-            self.invert_within::<MAX_B>(p, u, v)
+    pub(crate) fn invert<const S: usize>(&self, p: &Place<S>, u: f32, v: f32) -> Hit {
+        // loops of fixed length are worth a copy of the code for every length
+        match self.shape.n_b {
+            8 => self.invert_rows::<S, 8>(p, u, v),
+            16 => self.invert_rows::<S, 16>(p, u, v),
+            24 => self.invert_rows::<S, 24>(p, u, v),
+            _ => self.invert_rows::<S, 32>(p, u, v),
         }
     }
 
-    /// [`Self::invert`] for rows of at most `B` nodes.
+    /// [`Self::invert`] for rows of `B` nodes.
     #[inline]
-    fn invert_within<const B: usize>(&self, p: Place, u: f32, v: f32) -> (f32, f32) {
+    fn invert_rows<const S: usize, const B: usize>(&self, p: &Place<S>, u: f32, v: f32) -> Hit {
         let (i, fraction) = self.row_of(p, u);
-        let (low, high) = (self.row::<B>(p, i), self.row::<B>(p, i + 1));
-        let nb = self.shape.n_b;
+        let (low, high) = (self.row::<S, B>(p, i), self.row::<S, B>(p, i + 1));
         // the trapezoid rule: half weights at both ends
-        let mass = |r: &Row<B>| eighths(r) - 0.5 * (r[0] + r[nb - 1]);
+        let mass = |r: &Row<B>| eighths(r) - 0.5 * (r[0] + r[B - 1]);
         let x = linear(mass(&low), mass(&high), fraction);
         let mut row = [0.0; B];
         for j in 0..B {
-            row[j] = low[j] + x * (high[j] - low[j]);
+            row[j] = lerp(low[j], high[j], x);
         }
-        let (j, y) = column(&row, nb - 1, v);
-        (
-            (i as f32 + x) / (self.shape.n_a - 1) as f32,
-            (j as f32 + y) / (nb - 1) as f32,
-        )
+        let (j, y) = column(&row, v);
+        Hit {
+            a: (i as f64 + f64::from(x)) / (self.shape.n_a - 1) as f64,
+            b: (j as f64 + f64::from(y)) / (B - 1) as f64,
+            density: lerp(row[j], row[j + 1], y),
+        }
     }
 
-    /// The interval of rows in which the blended marginal reaches `u`, and the fraction of its mass.
+    /// The interval of rows in which the blended marginal reaches `u`, and the fraction of its mass. Rows whose mass is
+    /// not above `u` are counted: no branch, no chain of loads.
     #[inline]
-    fn row_of(&self, p: Place, u: f32) -> (usize, f32) {
+    fn row_of<const S: usize>(&self, p: &Place<S>, u: f32) -> (usize, f32) {
         let na = self.shape.n_a;
-        let (low, high) = (
-            &self.below[p.k * na..][..na],
-            &self.below[(p.k + 1) * na..][..na],
-        );
-        let below = |i: usize| low[i] + p.t * (high[i] - low[i]);
-        let (mut first, mut len) = (0, na - 1);
-        while len > 1 {
-            let half = len / 2;
-            first = if below(first + half) <= u {
-                first + half
-            } else {
-                first
-            };
-            len -= half;
-        }
-        let (l, h) = (below(first), below(first + 1));
-        (first, ((u - l) / (h - l)).clamp(0.0, 1.0))
+        let list = |s: usize| &self.below[p.blend.slice[s] * na..][..na];
+        let w = p.blend.weight;
+        let count = if S == 2 {
+            let pairs = list(0)[1..na - 1].iter().zip(&list(1)[1..na - 1]);
+            pairs
+                .map(|(l, h)| u32::from(w[0] * l + w[1] * h <= u))
+                .sum::<u32>()
+        } else {
+            let first = list(0)[1..na - 1].iter().zip(&list(1)[1..na - 1]);
+            let second = list(2)[1..na - 1].iter().zip(&list(3)[1..na - 1]);
+            first
+                .zip(second)
+                .map(|((a, b), (c, d))| {
+                    u32::from((w[0] * a + w[1] * b) + (w[2] * c + w[3] * d) <= u)
+                })
+                .sum::<u32>()
+        };
+        let i = count as usize;
+        let below = |i: usize| {
+            let mut sum = 0.0;
+            for (s, w) in w.iter().enumerate() {
+                sum += w * list(s)[i];
+            }
+            sum
+        };
+        let (l, h) = (below(i), below(i + 1));
+        (i, ((u - l) / (h - l)).clamp(0.0, 1.0))
     }
 
     #[inline]
-    fn row<const B: usize>(&self, p: Place, i: usize) -> Row<B> {
+    fn row<const S: usize, const B: usize>(&self, p: &Place<S>, i: usize) -> Row<B> {
         let (nb, n) = (self.shape.n_b, self.shape.slice());
-        let low = &self.nodes[p.k * n + i * nb..][..nb];
-        let high = &self.nodes[(p.k + 1) * n + i * nb..][..nb];
         let mut row = [0.0; B];
-        for (r, (a, b)) in row.iter_mut().zip(low.iter().zip(high)) {
-            *r = p.factor[0] * decode(*a) + p.factor[1] * decode(*b);
+        for (slice, factor) in p.blend.slice.iter().zip(p.factor) {
+            let nodes: &[u8; B] = self.nodes[slice * n + i * nb..]
+                .first_chunk()
+                .unwrap_or(&[0; B]);
+            for j in 0..B {
+                row[j] += factor * decode(nodes[j]);
+            }
         }
         row
     }
 }
 
+/// From `l` at 0 to `r` at 1, good to a few roundings of the result: the form with one product cancels between
+/// neighbours of very different size, and `sample` and `pdf` would disagree.
+#[inline(always)]
+fn lerp(l: f32, r: f32, x: f32) -> f32 {
+    (1.0 - x) * l + x * r
+}
+
 /// The interval of `x` in [0, 1] among `n` nodes, and where in it.
 #[inline]
-fn split(x: f32, n: usize) -> (usize, f32) {
-    let x = x * (n - 1) as f32;
-    let i = (x as usize).min(n - 2);
-    (i, x - i as f32)
+fn split(x: f64, n: usize) -> (usize, f32) {
+    let x = x * (n - 1) as f64;
+    let i = (x as u32).min(n as u32 - 2);
+    (i as usize, (x - f64::from(i)) as f32)
 }
 
 /// The point of [0, 1] at which a density linear from `r0` to `r1` holds the fraction `y` of its mass. The
@@ -221,23 +256,23 @@ fn eighths<const B: usize>(row: &Row<B>) -> f32 {
 /// Cells that are summed together before they are searched one by one.
 const BLOCK: usize = 4;
 
-/// The interval, of the first `cells`, in which the trapezoid sums of `row` reach the fraction `v`, and the place
-/// in it. Searched by blocks, then in the block; nothing branches on the outcome.
+/// The interval in which the trapezoid sums of `row` reach the fraction `v`, and the place in it. Searched by blocks,
+/// then in the block; nothing branches on the outcome.
 #[inline]
-fn column<const B: usize>(row: &Row<B>, cells: usize, v: f32) -> (usize, f32) {
+fn column<const B: usize>(row: &Row<B>, v: f32) -> (usize, f32) {
     let mut mass = [0.0; B];
     for j in 0..B - 1 {
-        let inside = if j < cells { 0.5 } else { 0.0 };
-        mass[j] = inside * (row[j] + row[j + 1]);
+        mass[j] = 0.5 * (row[j] + row[j + 1]);
     }
-    let mut blocks = [0.0; MAX_B / BLOCK];
-    for (block, m) in blocks.iter_mut().zip(mass.chunks_exact(BLOCK)) {
-        *block = (m[0] + m[1]) + (m[2] + m[3]);
-    }
-    let target = v * blocks.iter().sum::<f32>();
+    let block = |k: usize| {
+        let m = &mass[BLOCK * k..][..BLOCK];
+        (m[0] + m[1]) + (m[2] + m[3])
+    };
+    let total: f32 = (0..B / BLOCK).map(block).sum();
+    let target = v * total;
     let (mut below, mut at, mut first) = (0.0, 0.0, 0);
-    for block in &blocks[..cells.div_ceil(BLOCK) - 1] {
-        at += block;
+    for k in 0..B / BLOCK - 1 {
+        at += block(k);
         let passed = at <= target;
         first += BLOCK * usize::from(passed);
         below = if passed { at } else { below };
@@ -246,7 +281,7 @@ fn column<const B: usize>(row: &Row<B>, cells: usize, v: f32) -> (usize, f32) {
     let (mut at, start, mut j) = (below, first, first);
     for (k, m) in block[..BLOCK - 1].iter().enumerate() {
         at += m;
-        let passed = at <= target && start + k + 1 < cells;
+        let passed = at <= target && start + k + 2 < B;
         j += usize::from(passed);
         below = if passed { at } else { below };
     }

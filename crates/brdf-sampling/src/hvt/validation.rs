@@ -9,13 +9,17 @@ use crate::target::Target;
 use brdf::{DirectionSampler, direction};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+use std::f64::consts::TAU;
 
 /// Radial scale of the points' own chart.
 const R0: f64 = 5e-4;
 /// Points along a and b.
 const POINTS: [usize; 2] = [160, 12];
 /// Viewers, degrees.
-const THETA_DEG: [f64; 5] = [4.0, 26.0, 47.0, 66.0, 81.0];
+const THETA_DEG: [f64; 6] = [4.0, 26.0, 47.0, 66.0, 79.0, 86.0];
+
+/// The golden section: its multiples fill an interval evenly.
+const GOLDEN: f64 = 0.618_033_988_75;
 
 /// A point: direction, f cos, and the solid angle it stands for.
 struct Point {
@@ -32,27 +36,34 @@ pub(crate) struct Validation {
 impl Validation {
     /// Evaluates the target at some 10^4 points.
     pub(crate) fn new(target: &Target<'_>) -> Self {
-        let view = |deg: &f64| {
-            let wo = direction(deg.to_radians(), 0.0);
+        let view = |(n, deg): (usize, &f64)| {
+            // azimuths by the golden section, where they matter
+            let turns = if target.symmetry.isotropic {
+                0.0
+            } else {
+                n as f64 * GOLDEN
+            };
+            let wo = direction(deg.to_radians(), TAU * turns);
             let frame = ViewFrame::new(wo);
             let chart = Chart::new(frame.sin_o, frame.cos_o, R0);
             let [n, m] = POINTS;
             let points = (0..n * m).map(|k| {
                 let (i, j) = (k / m, k % m);
                 // rows are shifted against each other by the golden section
-                let shift = (i as f64 * 0.618_033_988_75).fract();
+                let shift = (i as f64 * GOLDEN).fract();
                 let ab = DVec2::new((i as f64 + 0.5) / n as f64, (j as f64 + shift) / m as f64);
                 let p = chart.forward(ab);
+                let wi = frame.to_world(p.wi);
                 Point {
-                    wi: p.wi,
-                    f_cos: target.f_cos(p.wi, wo),
+                    wi,
+                    f_cos: target.f_cos(wi, wo),
                     area: p.jacobian / (n * m) as f64,
                 }
             });
             (wo, points.collect::<Vec<_>>())
         };
         Self {
-            views: THETA_DEG.par_iter().map(view).collect(),
+            views: THETA_DEG.par_iter().enumerate().map(view).collect(),
         }
     }
 

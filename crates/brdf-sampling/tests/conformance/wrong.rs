@@ -19,6 +19,8 @@ enum Mistake {
     SliceOffByOne,
     /// Half-vector density taken for a direction density: the factor 4 (wo.h) is missing.
     NoJacobian,
+    /// The density of the neighbouring slice of azimuth: both directions turned by 15 degrees.
+    AzimuthOffByOne,
     /// Samples mirrored about the plane of incidence.
     Mirrored,
     /// The cosine forgotten.
@@ -45,6 +47,10 @@ impl DirectionSampler for Wrong<'_> {
                 let phi = wo.y.atan2(wo.x);
                 let theta = (wo.z.acos() - 6.0_f64.to_radians()).max(0.0);
                 self.inner.pdf(wi, brdf::direction(theta, phi))
+            }
+            Mistake::AzimuthOffByOne => {
+                let turn = glam::DMat3::from_rotation_z(15.0_f64.to_radians());
+                self.inner.pdf(turn * wi, turn * wo)
             }
             Mistake::NoJacobian => {
                 let scale = 4.0 * wo.dot((wi + wo).normalize());
@@ -82,6 +88,7 @@ const MISTAKES: &[(&str, &[Mistake])] = &[
             Mistake::Mirrored,
         ],
     ),
+    ("Hvt default", &[Mistake::AzimuthOffByOne]),
     (
         "Dictionary",
         &[
@@ -107,7 +114,13 @@ fn case_for(name: &str) -> Case {
         return kind.unwrap().build();
     }
     let mut cases = targets::all();
-    cases.retain(|c| c.name == "spiky");
+    // slices of azimuth need a case that turns
+    let wanted = if name == "Hvt default" {
+        "brushed"
+    } else {
+        "spiky"
+    };
+    cases.retain(|c| c.name == wanted);
     cases.remove(0)
 }
 

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use tracer::{Hero, HeroEmission};
 
 /// Where the density 1/cosh^2(A (lambda - B)), an approximation of what the eye sees, is highest, nm, and how narrow
-/// it is, 1/nm [RadziszewskiPbrt2009].
+/// it is, 1/nm [Radziszewski2009].
 const PEAK_NM: f64 = 538.0;
 const NARROW: f64 = 0.0072;
 /// What the observer sees, nm.

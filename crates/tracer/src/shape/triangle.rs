@@ -23,20 +23,6 @@ impl Triangle {
         (w, [v0, v1, v2])
     }
 
-    /// Distance of the hit of the ray `o + t d` with t > 0, infinity for none.
-    #[inline(always)]
-    pub(crate) fn hit(&self, o: Vec3A, d: Vec3A) -> f32 {
-        let ([w0, w1, w2], [v0, v1, v2]) = self.volumes(o, d);
-        let least = w0.min(w1).min(w2);
-        let most = w0.max(w1).max(w2);
-        if least < 0.0 && most > 0.0 {
-            return f32::INFINITY;
-        }
-        let normal = (v1 - v0).cross(v2 - v0);
-        let t = v0.dot(normal) / normal.dot(d);
-        if t > 0.0 { t } else { f32::INFINITY }
-    }
-
     /// Weights of the corners where the ray meets the plane, summing to one.
     #[inline]
     pub(crate) fn barycentric(&self, o: Vec3, d: Vec3) -> [f32; 3] {

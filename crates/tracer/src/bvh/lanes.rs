@@ -1,0 +1,87 @@
+//! Eight numbers at a time: AVX where the machine has it, plain loops elsewhere, the same bits from both.
+//!
+//! The compiler makes no mask of eight comparisons by itself, and lays out the slab test badly: hence by hand.
+
+/// What the machine offers.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lanes8 {
+    #[cfg(target_arch = "x86_64")]
+    avx: Option<pulp::core_arch::x86::Avx>,
+}
+
+/// One axis of a slab test: planes met first and last by a ray, its origin and the inverse of its direction.
+#[derive(Clone, Copy)]
+pub(super) struct Slab<'a> {
+    pub(super) near: &'a [f32; 8],
+    pub(super) far: &'a [f32; 8],
+    pub(super) o: f32,
+    pub(super) inverse: f32,
+}
+
+/// Widens the far end of a slab by the rounding of its two operations, here and of the near end [Pharr2023].
+const WIDER: f32 = 1.0 + 4.0 * f32::EPSILON;
+
+impl Lanes8 {
+    pub(super) fn detect() -> Self {
+        Self {
+            #[cfg(target_arch = "x86_64")]
+            avx: pulp::core_arch::x86::Avx::try_new(),
+        }
+    }
+
+    /// Where a ray enters each of eight boxes, and a bit for each that it enters between 0 and `t_max`.
+    #[inline(always)]
+    pub(super) fn enter(self, slabs: [Slab<'_>; 3], t_max: f32) -> ([f32; 8], u32) {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(avx) = self.avx {
+            let (mut near, mut far) = (avx._mm256_setzero_ps(), avx._mm256_set1_ps(t_max));
+            for slab in slabs {
+                let (o, inverse) = (avx._mm256_set1_ps(slab.o), avx._mm256_set1_ps(slab.inverse));
+                let at = |planes: &[f32; 8]| {
+                    avx._mm256_mul_ps(avx._mm256_sub_ps(pulp::cast(*planes), o), inverse)
+                };
+                // of a NaN and a number both operations take the second: 0 * inf, a ray within a plane, bounds nothing
+                near = avx._mm256_max_ps(at(slab.near), near);
+                far = avx._mm256_min_ps(at(slab.far), far);
+            }
+            let far = avx._mm256_mul_ps(far, avx._mm256_set1_ps(WIDER));
+            let met = avx._mm256_cmp_ps::<LESS_OR_EQUAL>(near, far);
+            return (pulp::cast(near), avx._mm256_movemask_ps(met) as u32);
+        }
+        let (mut near, mut far) = ([0.0_f32; 8], [t_max; 8]);
+        for slab in slabs {
+            for k in 0..8 {
+                let a = (slab.near[k] - slab.o) * slab.inverse;
+                near[k] = if a > near[k] { a } else { near[k] };
+                let b = (slab.far[k] - slab.o) * slab.inverse;
+                far[k] = if b < far[k] { b } else { far[k] };
+            }
+        }
+        (
+            near,
+            mask(std::array::from_fn(|k| near[k] <= far[k] * WIDER)),
+        )
+    }
+
+    /// A bit for each number below `limit`.
+    #[inline(always)]
+    pub(super) fn below(self, x: &[f32; 8], limit: f32) -> u32 {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(avx) = self.avx {
+            let met = avx._mm256_cmp_ps::<LESS>(pulp::cast(*x), avx._mm256_set1_ps(limit));
+            return avx._mm256_movemask_ps(met) as u32;
+        }
+        mask(std::array::from_fn(|k| x[k] < limit))
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+const LESS: i32 = std::arch::x86_64::_CMP_LT_OQ;
+#[cfg(target_arch = "x86_64")]
+const LESS_OR_EQUAL: i32 = std::arch::x86_64::_CMP_LE_OQ;
+
+/// A bit for each that is true.
+#[inline(always)]
+fn mask(set: [bool; 8]) -> u32 {
+    (0..8).fold(0, |bits, k| bits | (u32::from(set[k]) << k))
+}
