@@ -12,6 +12,7 @@
 
 mod check;
 mod codegen;
+mod curet;
 mod fixtures;
 mod interpolation;
 mod ngan;
@@ -31,6 +32,7 @@ cargo xtask tidy          the repository's own rules
 cargo xtask fixtures      make data-fixtures/ again; --check: compare only
 cargo xtask codegen       make the generated tables again; --check: compare only
 cargo xtask interpolation cross-validate the interpolants on Cornell files
+cargo xtask curet       rough diffuse models fitted to CUReT
 cargo xtask ngan DIR     our fits against the published ones, on a folder of MERL files
 cargo xtask render-all    all scenes their data allow, with a contact sheet; see --help
 ";
@@ -55,6 +57,7 @@ fn run(args: &[String]) -> Result<()> {
         Some("fixtures") => fixtures::run(rest),
         Some("codegen") => codegen::run(rest),
         Some("interpolation") => interpolation::run(rest),
+        Some("curet") => curet::run(),
         Some("ngan") => ngan::run(rest),
         Some("render-all") => render_all::run(rest),
         Some("help" | "--help" | "-h") => {

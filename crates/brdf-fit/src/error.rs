@@ -26,7 +26,7 @@ pub enum FitError {
         known: String,
     },
     /// More or fewer lobes than a family has.
-    #[error("model `{model}`: expected {expected} lobes, found {found}")]
+    #[error("model `{model}`: expected {expected}, found {found}")]
     Lobes {
         /// The model.
         model: String,
@@ -41,4 +41,10 @@ pub enum FitError {
         /// The model.
         model: String,
     },
+    /// Exports need linear sRGB.
+    #[error("expected 3 channels, found {0}")]
+    Channels(usize),
+    /// A part of a fit that is no model.
+    #[error("{0}")]
+    Text(String),
 }

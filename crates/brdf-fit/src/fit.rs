@@ -125,6 +125,21 @@ pub fn fit(family: &dyn Family, data: &FitData) -> Result<Fit, FitError> {
     Ok(report(&all, &point, start.elapsed().as_secs_f64()))
 }
 
+/// Fits several families to the same data, in parallel; `done` is told of each as it ends, from any thread.
+pub fn fit_all(
+    families: &[Box<dyn Family>],
+    data: &FitData,
+    done: &(dyn Fn(&str, &Result<Fit, FitError>) + Sync),
+) -> Vec<Result<Fit, FitError>> {
+    (families.par_iter())
+        .map(|family| {
+            let result = fit(&**family, data);
+            done(family.name(), &result);
+            result
+        })
+        .collect()
+}
+
 /// The stages before the last.
 fn search<'a>(
     on: &(impl Fn(&'a Samples) -> Problem<'a> + Sync),

@@ -9,6 +9,7 @@
 
 mod confidence;
 mod error;
+pub mod export;
 mod families;
 mod family;
 mod fit;
@@ -21,7 +22,7 @@ mod samples;
 pub use error::FitError;
 pub use families::{families, family};
 pub use family::{Family, Lobes, Part, Scale, ShapeParameter, Weight};
-pub use fit::{Estimate, Fit, FitData, error_of, fit};
+pub use fit::{Estimate, Fit, FitData, error_of, fit, fit_all};
 pub use metric::{Metric, Sums};
 pub use nnls::nnls;
 pub use samples::{Pair, Samples};

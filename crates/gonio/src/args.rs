@@ -2,6 +2,7 @@
 
 use crate::verbs::converge::Converge;
 use crate::verbs::stress::Stress;
+use crate::verbs::fit::Fit;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use scene_io::scene::{InterpolationName, SamplerName, SpectrumName};
 use std::path::PathBuf;
@@ -37,6 +38,7 @@ pub(crate) enum Verb {
     Measure(Measure),
     Compare(Compare),
     Stress(Stress),
+    Fit(Fit),
     Spectra(crate::verbs::spectra::Spectra),
     Converge(Converge),
 }

@@ -3,6 +3,7 @@
 use crate::load::brdf_scale;
 use brdf::{HalfDiff, Measured, direction};
 use brdf_table::directional_albedo;
+use glam::DVec3;
 use plot::{Color, Curve, Stroke, palette};
 use spectrum::{Basis, Observer, linear_srgb_from_xyz, srgb_encode};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -19,11 +20,16 @@ const BANDS: usize = 5;
 /// All channels as the file has them, in the plane of incidence.
 fn native(material: &dyn Measured, theta_i: f64, theta_o: f64) -> Vec<f64> {
     let mut out = vec![0.0; material.basis().len()];
-    // light from the left (phi = 180 degrees), so that the mirror direction is at +theta_i
-    let wi = direction(theta_i, PI);
-    let wo = direction(theta_o.abs(), if theta_o < 0.0 { PI } else { 0.0 });
+    let (wi, wo) = in_plane(theta_i, theta_o);
     material.eval_native(wi, wo, &mut out);
     out
+}
+
+/// Light from the left (phi = 180 degrees), so that the mirror direction is at +theta_i.
+fn in_plane(theta_i: f64, theta_o: f64) -> (DVec3, DVec3) {
+    let wi = direction(theta_i, PI);
+    let wo = direction(theta_o.abs(), if theta_o < 0.0 { PI } else { 0.0 });
+    (wi, wo)
 }
 
 /// Which channels to draw, and how: three for colour, up to five bands spread over a spectrum.
@@ -104,6 +110,20 @@ pub(crate) fn luminance_lobe(
         .map(|t| (t, dot(&native(material, theta_i, t), &weights)))
         .collect();
     curve(label, color, points)
+}
+
+/// The in-plane lobe of anything with a value for a pair of directions.
+pub(crate) fn lobe_of(
+    value: impl Fn(DVec3, DVec3) -> f64,
+    label: &str,
+    theta_i: f64,
+    color: Color,
+) -> Curve {
+    let points = lobe_angles().map(|t| {
+        let (wi, wo) = in_plane(theta_i, t);
+        (t, value(wi, wo))
+    });
+    curve(label, color, points.collect())
 }
 
 fn lobe_angles() -> impl Iterator<Item = f64> {

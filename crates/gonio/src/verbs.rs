@@ -4,6 +4,7 @@ pub(crate) mod compare;
 pub(crate) mod converge;
 pub(crate) mod convert;
 pub(crate) mod eval;
+pub(crate) mod fit;
 pub(crate) mod info;
 pub(crate) mod measure;
 pub(crate) mod mix;

@@ -72,10 +72,22 @@ pub(super) const FAMILIES: &[Published] = &[
     },
     Published {
         file: "AshikhminShirley",
-        family: "ashikhmin-shirley",
+        family: "ashikhmin-lobe",
         lobe: |at| {
             Ok((
-                format!("ashikhmin-shirley:n={},ks={},kd=0", at("n")?, at("F0")?),
+                format!("ashikhmin-lobe:n={},f0={},ks=1,kd=0", at("n")?, at("F0")?),
+                1.0,
+            ))
+        },
+    },
+    Published {
+        file: "He",
+        family: "he",
+        lobe: |at| {
+            // tau, sigma and a real index; see the heading
+            let (tau, sigma, n) = (at("p6")?, at("p7")?, at("p8")?);
+            Ok((
+                format!("he:sigma={sigma},tau={tau},n={n},mirror=0,ks=1,kd=0"),
                 1.0,
             ))
         },

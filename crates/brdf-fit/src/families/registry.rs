@@ -1,25 +1,52 @@
 //! Models of the registry that are linear in their weights, one lobe or the sum of several of the same kind.
 
-use super::{ROUGHNESSES, build, channels, exponent, lambert, numbered, reflectance, whole};
+use super::{
+    EXPONENT_RANGE, EXPONENTS, REFLECTANCE_RANGE, REFLECTANCES, ROUGHNESSES, build, channels,
+    lambert, numbered, whole,
+};
 use crate::family::{Channels, Family, Lobes, Part, Scale, ShapeParameter, Weight};
 use glam::DVec3;
 
 /// What is searched for in a model.
 #[derive(Clone, Copy, Debug)]
-enum Search {
-    /// A roughness of this name.
-    Roughness(&'static str),
-    /// The exponent `n`.
-    Exponent,
-    /// The reflectance `f0`.
-    F0,
+struct Search {
+    name: &'static str,
+    range: (f64, f64),
+    scale: Scale,
+    starts: &'static [f64],
 }
+
+const fn log(name: &'static str, range: (f64, f64), starts: &'static [f64]) -> Search {
+    Search {
+        name,
+        range,
+        scale: Scale::Log,
+        starts,
+    }
+}
+
+/// The range of the registry.
+const fn roughness(name: &'static str) -> Search {
+    log(name, (1e-4, 1.0), ROUGHNESSES)
+}
+
+const EXPONENT: Search = log("n", EXPONENT_RANGE, EXPONENTS);
+const F0: Search = Search {
+    name: "f0",
+    range: REFLECTANCE_RANGE,
+    scale: Scale::Logit,
+    starts: REFLECTANCES,
+};
 
 /// A model of the registry.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Entry {
     pub(super) name: &'static str,
     search: &'static [Search],
+    /// The weight of the lobe.
+    weight: &'static str,
+    /// Text of what is not searched for.
+    fixed: &'static str,
 }
 
 impl Entry {
@@ -27,24 +54,88 @@ impl Entry {
     pub(super) const fn has_lobe(&self) -> bool {
         !self.search.is_empty()
     }
+
+    const fn weighted(self, weight: &'static str) -> Self {
+        Self { weight, ..self }
+    }
+
+    const fn fixed(self, fixed: &'static str) -> Self {
+        Self { fixed, ..self }
+    }
 }
 
 const fn entry(name: &'static str, search: &'static [Search]) -> Entry {
-    Entry { name, search }
+    Entry {
+        name,
+        search,
+        weight: "ks",
+        fixed: "",
+    }
 }
 
-/// All have `kd`, and `ks` unless nothing is searched for.
+/// All have `kd`, and a weight of the lobe unless nothing is searched for.
 pub(super) const ENTRIES: &[Entry] = &[
     entry("lambert", &[]),
-    entry("phong", &[Search::Exponent]),
-    entry("lewis", &[Search::Exponent]),
-    entry("blinn-phong", &[Search::Exponent]),
-    entry("ward", &[Search::Roughness("alpha")]),
-    entry("ward-cheap", &[Search::Roughness("alpha")]),
-    entry("ward-duer", &[Search::Roughness("alpha")]),
-    entry("ward-gmd", &[Search::Roughness("alpha")]),
-    entry("cook-torrance", &[Search::Roughness("m"), Search::F0]),
-    entry("ggx", &[Search::Roughness("alpha"), Search::F0]),
+    entry("phong", &[EXPONENT]),
+    entry("lewis", &[EXPONENT]),
+    entry("blinn-phong", &[EXPONENT]),
+    entry("ward", &[roughness("alpha")]),
+    entry("ward-cheap", &[roughness("alpha")]),
+    entry("ward-duer", &[roughness("alpha")]),
+    entry("ward-gmd", &[roughness("alpha")]),
+    entry("cook-torrance", &[roughness("m"), F0]),
+    entry("cook-torrance-smith", &[roughness("m"), F0]),
+    entry("ggx", &[roughness("alpha"), F0]),
+    // the published model ties the lobe's weight to its Fresnel term; this is the form with a weight of its own
+    entry("ashikhmin-lobe", &[EXPONENT, F0]),
+    // the mirror reflection is narrower than any cell: what is fitted is the directional diffuse part
+    entry(
+        "he",
+        &[
+            log("sigma", (1e-3, 20.0), &[0.05, 0.25, 1.0]),
+            log("tau", (0.05, 1e3), &[1.0, 6.0, 40.0]),
+            F0,
+        ],
+    )
+    .fixed(",mirror=0"),
+    entry(
+        "abc",
+        &[
+            log("b", (1.0, 1e8), &[10.0, 1e3, 1e5]),
+            log("c", (0.01, 10.0), &[0.7, 2.0]),
+            log("n", (1.01, 1e3), &[1.4, 10.0]),
+        ],
+    )
+    .weighted("a"),
+    entry(
+        "abg",
+        &[
+            log("b", (1e-12, 1e3), &[1e-6, 1e-4, 1e-2, 0.3]),
+            log("g", (0.1, 10.0), &[1.5, 3.0]),
+        ],
+    )
+    .weighted("a"),
+    entry(
+        "harvey-shack",
+        &[
+            log("l", (1e-5, 10.0), &[1e-3, 1e-2, 0.1, 0.5]),
+            Search {
+                name: "s",
+                range: (-10.0, -0.01),
+                scale: Scale::Linear,
+                starts: &[-1.5, -4.0],
+            },
+        ],
+    )
+    .weighted("b0"),
+    // sigma is a factor of the whole lobe, as is its weight: it stays what it is by default
+    entry(
+        "k-correlation",
+        &[
+            log("b", (0.01, 1e5), &[0.5, 5.0, 50.0, 500.0]),
+            log("s", (2.001, 10.0), &[2.5, 5.0]),
+        ],
+    ),
 ];
 
 /// kd/pi + sum over lobes of ks times the lobe of unit weight.
@@ -59,10 +150,11 @@ impl Registered {
     pub(super) fn new(entry: &'static Entry, lobes: usize) -> Self {
         let lobes = if entry.has_lobe() { lobes } else { 0 };
         let shape = (0..lobes).flat_map(|lobe| {
-            entry.search.iter().map(move |s| match s {
-                Search::Roughness(name) => roughness(name, lobe),
-                Search::Exponent => exponent(lobe),
-                Search::F0 => reflectance("f0", lobe),
+            entry.search.iter().map(move |s| ShapeParameter {
+                name: numbered(s.name, lobe),
+                range: s.range,
+                scale: s.scale,
+                starts: s.starts.into(),
             })
         });
         let weight = |name: String| Weight {
@@ -70,7 +162,7 @@ impl Registered {
             signed: false,
         };
         let weights = std::iter::once(weight("kd".into()))
-            .chain((0..lobes).map(|lobe| weight(numbered("ks", lobe))));
+            .chain((0..lobes).map(|lobe| weight(numbered(entry.weight, lobe))));
         Self {
             shape: shape.collect(),
             weights: weights.collect(),
@@ -83,23 +175,22 @@ impl Registered {
     fn text(&self, shape: &[f64], lobe: usize) -> String {
         let n = self.entry.search.len();
         let values = self.entry.search.iter().zip(&shape[lobe * n..]);
-        let shape: Vec<String> = values
-            .map(|(s, v)| match s {
-                Search::Roughness(name) => format!("{name}={v}"),
-                Search::Exponent => format!("n={v}"),
-                Search::F0 => format!("f0={v}"),
-            })
-            .collect();
-        format!("{}:{}", self.entry.name, shape.join(","))
+        let shape: Vec<String> = values.map(|(s, v)| format!("{}={v}", s.name)).collect();
+        format!(
+            "{}:{}{}",
+            self.entry.name,
+            shape.join(","),
+            self.entry.fixed
+        )
     }
-}
 
-fn roughness(name: &str, lobe: usize) -> ShapeParameter {
-    ShapeParameter {
-        name: numbered(name, lobe),
-        range: (1e-4, 1.0),
-        scale: Scale::Log,
-        starts: ROUGHNESSES.into(),
+    /// The lobe as the channels of one model, with these weights.
+    fn weighted(&self, shape: &[f64], lobe: usize, weight: &str, kd: &str) -> String {
+        format!(
+            "{},{}={weight},kd={kd}",
+            self.text(shape, lobe),
+            self.entry.weight
+        )
     }
 }
 
@@ -125,7 +216,7 @@ impl Family for Registered {
         match self.lobes {
             0 => Box::new(Channels(build::<1>("lambert:kd=1").built.brdf)),
             1 => {
-                let both = format!("{},ks=0/1,kd=1/0", self.text(shape, 0));
+                let both = self.weighted(shape, 0, "0/1", "1/0");
                 Box::new(Channels(build::<2>(&both).built.brdf))
             }
             _ => Box::new(Sum((0..self.lobes)
@@ -153,11 +244,7 @@ impl Registered {
         } else {
             "0".into()
         };
-        let text = format!(
-            "{},ks={},kd={kd}",
-            self.text(shape, lobe),
-            channels(weights, 1 + lobe)
-        );
+        let text = self.weighted(shape, lobe, &channels(weights, 1 + lobe), &kd);
         whole(text, weights.len())
     }
 }

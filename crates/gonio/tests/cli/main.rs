@@ -11,6 +11,8 @@ mod data;
 #[cfg(test)]
 mod exact;
 #[cfg(test)]
+mod fit;
+#[cfg(test)]
 mod fixtures;
 #[cfg(test)]
 mod golden;

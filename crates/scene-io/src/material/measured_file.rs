@@ -79,6 +79,17 @@ pub fn identify(path: &Path) -> Result<Identity, Error> {
         .map_err(|e: Error| e.in_file(path))
 }
 
+/// Whether the beginning of a file is that of a known format; false for what cannot be read.
+#[must_use]
+pub fn is_measured(path: &Path) -> bool {
+    let Ok((mut file, bytes)) = load::open(path, load::MAX_FILE_BYTES) else {
+        return false;
+    };
+    let mut prefix = Vec::new();
+    (file.by_ref().take(PREFIX as u64).read_to_end(&mut prefix)).is_ok()
+        && brdf_formats::detect_prefix(&prefix, bytes).is_some()
+}
+
 /// What tells one file from another.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Origin {

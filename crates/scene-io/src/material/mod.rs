@@ -17,7 +17,7 @@ mod surface;
 pub use identity::Identity;
 pub use loaded::{Detail, LoadedMeasured};
 pub(crate) use measured_file::measured_from_bytes;
-pub use measured_file::{identify, load_measured};
+pub use measured_file::{identify, is_measured, load_measured};
 pub use options::MaterialOptions;
 pub use pair::SamplerReport;
 pub(crate) use pair::{Visitor, luminance};

@@ -1,9 +1,7 @@
 //! Fits of data whose truth is known.
 
-mod common;
-
+use crate::common::{Sum, measured, of_model, truth};
 use brdf_fit::{FitData, FitError, Metric, Pair, Samples, error_of, families, family, fit};
-use common::{Sum, measured, of_model, truth};
 use glam::DVec3;
 
 /// A text for every family, and its values under the names a fit gives them.
@@ -42,7 +40,32 @@ const TRUTHS: &[(&str, &str)] = &[
         "lafortune",
         "lafortune:ks=0.2/0.15/0.1,n=25,cx=-1,cz=0.8,kd=0.3/0.2/0.1",
     ),
-    ("ashikhmin-shirley", "ashikhmin-shirley:n=60,ks=0.2,kd=0"),
+    (
+        "ashikhmin-lobe",
+        "ashikhmin-lobe:n=60,f0=0.2,ks=0.9/0.6/0.3,kd=0.3/0.2/0.1",
+    ),
+    (
+        "cook-torrance-smith",
+        "cook-torrance-smith:m=0.2,f0=0.06,ks=0.8,kd=0.3/0.2/0.1",
+    ),
+    (
+        "he",
+        "he:sigma=0.3,tau=3,f0=0.1,mirror=0,ks=0.9/0.6/0.3,kd=0.3/0.2/0.1",
+    ),
+    ("abc", "abc:a=5/4/3,b=100,c=1.5,n=1.6,kd=0.3/0.2/0.1"),
+    ("abg", "abg:a=0.02/0.015/0.01,b=0.01,g=2,kd=0.3/0.2/0.1"),
+    (
+        "harvey-shack",
+        "harvey-shack:b0=2/1/0.5,l=0.1,s=-2.5,kd=0.3/0.2/0.1",
+    ),
+    (
+        "k-correlation",
+        "k-correlation:b=2,s=3,ks=0.9/0.6/0.3,kd=0.3/0.2/0.1",
+    ),
+    (
+        "koenderink-2",
+        "koenderink:kd=0.6/0.4/0.2,a=0.1,a2=-0.05,a3=0.08,a4=0.02",
+    ),
 ];
 
 #[test]
@@ -54,17 +77,27 @@ fn every_family_has_a_truth() {
 
 #[test]
 fn data_without_noise_give_the_parameters_back() {
-    for (name, text) in TRUTHS {
-        let data = FitData::new(measured(text, [16, 16, 32], 0.0, 0), Metric::Ngan);
-        let fit = fit(&*family(name, 1).unwrap(), &data).unwrap();
-        for estimate in &fit.estimates {
-            let expected = truth(text, estimate);
-            // the table holds single precision: 6e-8 of every value, more of what little depends on a parameter
-            assert!(
-                (estimate.value - expected).abs() < 2e-5 * expected.abs() + 1e-7,
-                "{text}: {estimate:?}, expected {expected}"
-            );
-        }
+    for (name, text) in TRUTHS.iter().filter(|(name, _)| *name != "he") {
+        gives_back(name, text);
+    }
+}
+
+#[test]
+fn slow_he_gives_its_parameters_back() {
+    let (name, text) = TRUTHS.iter().find(|(name, _)| *name == "he").unwrap();
+    gives_back(name, text);
+}
+
+fn gives_back(name: &str, text: &str) {
+    let data = FitData::new(measured(text, [12, 12, 20], 0.0, 0), Metric::Ngan);
+    let fit = fit(&*family(name, 1).unwrap(), &data).unwrap();
+    for estimate in &fit.estimates {
+        let expected = truth(text, estimate);
+        // the table holds single precision: 6e-8 of every value, more of what little depends on a parameter
+        assert!(
+            (estimate.value - expected).abs() < 2e-5 * expected.abs() + 1e-7,
+            "{text}: {estimate:?}, expected {expected}"
+        );
     }
 }
 
@@ -72,7 +105,7 @@ fn data_without_noise_give_the_parameters_back() {
 fn every_metric_gives_the_parameters_back() {
     let (name, text) = TRUTHS[4];
     for metric in Metric::ALL {
-        let data = FitData::new(measured(text, [12, 12, 24], 0.0, 0), metric);
+        let data = FitData::new(measured(text, [10, 10, 16], 0.0, 0), metric);
         let fit = fit(&*family(name, 1).unwrap(), &data).unwrap();
         for estimate in &fit.estimates {
             let expected = truth(text, estimate);
@@ -108,8 +141,8 @@ fn each_metric_is_smallest_where_it_was_minimised() {
 
 #[test]
 fn the_text_of_a_fit_is_the_fit() {
-    for (name, text) in TRUTHS {
-        let samples = of_model(text, [8, 8, 12]);
+    for (name, text) in TRUTHS.iter().filter(|(name, _)| *name != "he") {
+        let samples = of_model(text, [6, 6, 8]);
         let data = FitData::new(samples.clone(), Metric::CubeRoot);
         // one family of several lobes stands for all
         for lobes in if *name == "ward" { 1..=2 } else { 1..=1 } {
@@ -228,7 +261,7 @@ fn what_cannot_be_fitted_is_refused_in_one_line() {
     );
     assert_eq!(
         message(family("eon", 2).err().unwrap()),
-        "model `eon`: expected one lobes, found 2"
+        "model `eon`: expected one lobe, found 2"
     );
     let ward = family("ward", 1).unwrap();
     let black = Samples::on_grid([10, 10, 10], 3, |_, _, _| true);
@@ -253,14 +286,15 @@ fn what_cannot_be_fitted_is_refused_in_one_line() {
 
 #[test]
 fn slow_intervals_cover_the_truth() {
+    // He's model is left out: as one of many its series would take most of the time
     // per family and parameter: misses among SEEDS seeds are binomial(SEEDS, 0.05) if intervals are right
-    const SEEDS: u64 = 200;
+    const SEEDS: u64 = 100;
     let mut worst = Vec::new();
-    for (name, text) in TRUTHS {
+    for (name, text) in TRUTHS.iter().filter(|(name, _)| *name != "he") {
         let family = family(name, 1).unwrap();
         let mut misses: Vec<u32> = Vec::new();
         for seed in 0..SEEDS {
-            let data = FitData::new(measured(text, [30, 30, 60], 0.05, seed), Metric::Ngan);
+            let data = FitData::new(measured(text, [20, 20, 32], 0.05, seed), Metric::Ngan);
             let fit = fit(&*family, &data).unwrap();
             misses.resize(fit.estimates.len(), 0);
             for (miss, estimate) in misses.iter_mut().zip(&fit.estimates) {
@@ -271,8 +305,8 @@ fn slow_intervals_cover_the_truth() {
         println!("{name}: misses of {SEEDS} {misses:?}");
         worst.extend(misses);
     }
-    // a binomial(200, 0.05) exceeds 26 with probability 1e-5 (exact tail); times the 110 parameters tested that is 0.001
-    assert!(worst.iter().all(|m| *m <= 26), "{worst:?}");
+    // a binomial(100, 0.05) exceeds 17 with probability 2e-6 (exact tail); times the 160 numbers tested that is 4e-4
+    assert!(worst.iter().all(|m| *m <= 17), "{worst:?}");
     // all together they must not be too wide either: a mean of less than 0.025 for intervals of 95 %
     let mean = f64::from(worst.iter().sum::<u32>()) / (worst.len() as f64 * SEEDS as f64);
     assert!(mean > 0.025, "{mean}");

@@ -1,0 +1,191 @@
+//! The fit of one material, and what is written of it.
+
+use super::report::{Exported, Model, Report};
+use super::{Fit as Arguments, Usage, pictures, progress};
+use crate::verbs::Context;
+use anyhow::{Result, bail};
+use brdf::{Brdf, Measured, Status};
+use brdf_fit::export::exports;
+use brdf_fit::{Family, Fit, FitData, Samples, fit_all};
+use brdf_models::ParsedModel;
+use scene_io::load::{MAX_FILE_BYTES, bytes};
+use scene_io::material::{LoadedMeasured, MaterialOptions, Surface, load_measured};
+use scene_io::sealed::content_hash;
+use std::path::{Path, PathBuf};
+
+/// Cells of the grid on which models and gridded files are compared: MERL's [Matusik2003].
+const DIMS: [usize; 3] = [90, 90, 180];
+/// Cells for files that are no grid, which have no finer detail than their few thousand rows.
+const COARSE: [usize; 3] = [45, 45, 90];
+/// Pairs on which exports choose the nearest material of a renderer.
+const EXPORT_PAIRS: usize = 1 << 14;
+
+/// What is fitted.
+pub(super) enum Source {
+    File(PathBuf),
+    Model(ParsedModel<3>),
+}
+
+impl Source {
+    pub(super) fn name(&self) -> String {
+        match self {
+            Self::File(path) => path.display().to_string(),
+            Self::Model(model) => model.to_string(),
+        }
+    }
+
+    /// Of the content and of everything asked, and of the program, whose fits may change.
+    pub(super) fn key(&self, args: &Arguments, families: &[Box<dyn Family>]) -> Result<String> {
+        let content = match self {
+            Self::File(path) => content_hash(&bytes(path, MAX_FILE_BYTES)?),
+            Self::Model(model) => content_hash(model.to_string().as_bytes()),
+        };
+        let names: Vec<&str> = families.iter().map(|f| f.name()).collect();
+        let asked = format!(
+            "{} {} {} {} {}",
+            env!("CARGO_PKG_VERSION"),
+            args.metric,
+            args.lobes,
+            args.cutoff,
+            names.join(",")
+        );
+        Ok(format!(
+            "{content:016x}-{:016x}",
+            content_hash(asked.as_bytes())
+        ))
+    }
+}
+
+/// A fitted material.
+pub(super) struct Fitted {
+    pub(super) report: Report,
+    /// Best first.
+    pub(super) fits: Vec<Fit>,
+    pub(super) data: FitData,
+}
+
+pub(super) fn fit_source(
+    context: &Context,
+    source: &Source,
+    args: &Arguments,
+    families: &[Box<dyn Family>],
+) -> Result<Fitted> {
+    let samples = match source {
+        Source::File(path) => of_file(context, path)?,
+        Source::Model(model) => Samples::on_grid(DIMS, 3, |wi, wo, out| {
+            out.copy_from_slice(&model.built.brdf.eval(wi, wo));
+            true
+        }),
+    };
+    let samples = if args.cutoff < 90.0 {
+        samples.within(args.cutoff)
+    } else {
+        samples
+    };
+    let data = FitData::new(samples, args.metric);
+    let mut fits = Vec::new();
+    let mut refused = None;
+    for result in fit_all(families, &data, &progress(context)) {
+        match result {
+            Ok(fit) => fits.push(fit),
+            Err(e) => refused = Some(e),
+        }
+    }
+    fits.sort_by(|a, b| a.error.total_cmp(&b.error));
+    if fits.is_empty() {
+        match refused {
+            Some(e) => bail!("{}: {e}", source.name()),
+            None => return Err(Usage("expected at least one model".into()).into()),
+        }
+    }
+    let report = Report {
+        file: source.name(),
+        metric: args.metric.to_string(),
+        lobes: args.lobes,
+        cutoff_deg: args.cutoff,
+        samples: data.samples().len(),
+        key: source.key(args, families)?,
+        models: fits.iter().map(Model::of).collect(),
+        written: Vec::new(),
+        exports: Vec::new(),
+    };
+    Ok(Fitted { report, fits, data })
+}
+
+/// The measured cells of a grid, or the interpolant of scattered rows, in linear sRGB.
+fn of_file(context: &Context, path: &Path) -> Result<Samples> {
+    let options = MaterialOptions::default();
+    let loaded = load_measured(path, &options)?;
+    let surface = Surface::of_file(&loaded, &options, &context.places.cache)?;
+    let brdf = surface.brdf();
+    Ok(match dims(&loaded) {
+        Some(dims) => {
+            let channels = loaded.measured.basis().len();
+            Samples::on_grid(dims, 3, |wi, wo, out| {
+                out.copy_from_slice(&brdf.eval(wi, wo));
+                loaded
+                    .measured
+                    .eval_native(wi, wo, &mut vec![0.0; channels])
+                    != Status::Filled
+            })
+        }
+        None => Samples::on_grid(COARSE, 3, |wi, wo, out| {
+            out.copy_from_slice(&brdf.eval(wi, wo));
+            true
+        }),
+    })
+}
+
+/// Half the circle stands for all of it, whatever the file stores.
+fn dims(loaded: &LoadedMeasured) -> Option<[usize; 3]> {
+    let [h, d, p] = loaded.table()?.dims();
+    Some([h, d, p.min(DIMS[2])])
+}
+
+/// Pictures and exports of the best fit.
+pub(super) fn write(
+    context: &Context,
+    source: &Source,
+    args: &Arguments,
+    fitted: &mut Fitted,
+) -> Result<()> {
+    let folder = &args.output;
+    let Some(best) = fitted.fits.first() else {
+        return Ok(());
+    };
+    let few = fitted.data.samples().subset(args.metric, EXPORT_PAIRS);
+    let ggx = match fitted
+        .fits
+        .iter()
+        .find(|f| f.name == "ggx" && f.shape.len() == 2)
+    {
+        Some(ggx) => ggx.clone(),
+        None => brdf_fit::fit(
+            &*brdf_fit::family("ggx", 1)?,
+            &FitData::new(few.clone(), args.metric),
+        )?,
+    };
+    let mut written = Vec::new();
+    for export in exports(best, &ggx, &few)? {
+        let path = folder.join(export.file);
+        scene_io::write::bytes(&path, export.text.as_bytes())?;
+        written.push(path);
+        fitted.report.exports.push(Exported {
+            target: export.target.into(),
+            model: export.model,
+            error: export.error,
+        });
+    }
+    written.push(pictures::polar(context, source, &fitted.fits, folder)?);
+    if !args.no_spheres {
+        written.push(pictures::spheres(context, source, &fitted.fits, folder)?);
+    }
+    fitted.report.written = written;
+    Ok(())
+}
+
+pub(super) fn write_json(path: &Path, report: &Report) -> Result<()> {
+    let mut text = serde_json::to_string_pretty(report)?;
+    text.push('\n');
+    Ok(scene_io::write::bytes(path, text.as_bytes())?)
+}
