@@ -12,6 +12,7 @@
 
 mod check;
 mod codegen;
+mod compare;
 mod fixtures;
 mod interpolation;
 mod ngan;
@@ -32,6 +33,7 @@ cargo xtask fixtures      make data-fixtures/ again; --check: compare only
 cargo xtask codegen       make the generated tables again; --check: compare only
 cargo xtask interpolation cross-validate the interpolants on Cornell files
 cargo xtask ngan DIR     our fits against the published ones, on a folder of MERL files
+cargo xtask compare     time to 1 % error beside another renderer
 cargo xtask render-all    all scenes their data allow, with a contact sheet; see --help
 ";
 
@@ -55,6 +57,7 @@ fn run(args: &[String]) -> Result<()> {
         Some("fixtures") => fixtures::run(rest),
         Some("codegen") => codegen::run(rest),
         Some("interpolation") => interpolation::run(rest),
+        Some("compare") => compare::run(rest),
         Some("ngan") => ngan::run(rest),
         Some("render-all") => render_all::run(rest),
         Some("help" | "--help" | "-h") => {

@@ -1,6 +1,7 @@
 //! The command line as typed: verbs, flags, help. Nothing here does work.
 
 use crate::verbs::converge::Converge;
+use crate::verbs::samplers::Samplers;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use scene_io::scene::{InterpolationName, SamplerName};
 use std::path::PathBuf;
@@ -35,6 +36,7 @@ pub(crate) enum Verb {
     Convert(Convert),
     Measure(Measure),
     Compare(Compare),
+    Samplers(Samplers),
     Converge(Converge),
 }
 

@@ -69,6 +69,7 @@ fn run(cli: &Cli) -> anyhow::Result<()> {
         Some(Verb::Mix(args)) => verbs::mix::run(&context, args),
         Some(Verb::Convert(args)) => verbs::convert::run(&context, args),
         Some(Verb::Measure(args)) => verbs::measure::run(&context, args),
+        Some(Verb::Samplers(args)) => verbs::samplers::run(&context, args),
         Some(Verb::Converge(args)) => verbs::converge::run(&context, args),
         Some(Verb::Compare(args)) => verbs::compare::run(&context, args),
     }

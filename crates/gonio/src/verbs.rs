@@ -9,6 +9,7 @@ pub(crate) mod measure;
 pub(crate) mod mix;
 pub(crate) mod plot;
 pub(crate) mod render;
+pub(crate) mod samplers;
 
 use crate::args::Cli;
 use crate::output;

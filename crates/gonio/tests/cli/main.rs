@@ -22,3 +22,5 @@ mod interrupt;
 mod output;
 #[cfg(test)]
 mod program;
+#[cfg(test)]
+mod samplers;
