@@ -206,7 +206,7 @@ fn mitsuba(
     material: Option<&Path>,
     (spp, folder): (u32, &Path),
 ) -> Result<Peer> {
-    let script = repo::root().join("xtask/peers/mitsuba.py");
+    let script = repo::root().join("xtask/peers/mitsuba3.py");
     let output = Command::new("python3")
         .arg(script)
         .arg("--material")
