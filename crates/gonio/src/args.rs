@@ -3,7 +3,7 @@
 use crate::verbs::converge::Converge;
 use crate::verbs::samplers::Samplers;
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use scene_io::scene::{InterpolationName, SamplerName};
+use scene_io::scene::{InterpolationName, SamplerName, SpectrumName};
 use std::path::PathBuf;
 
 /// Check, see, convert and render measured reflectance.
@@ -37,6 +37,7 @@ pub(crate) enum Verb {
     Measure(Measure),
     Compare(Compare),
     Samplers(Samplers),
+    Spectra(crate::verbs::spectra::Spectra),
     Converge(Converge),
 }
 
@@ -67,6 +68,9 @@ pub(crate) struct Render {
     /// Worker threads; all cores by default.
     #[arg(long, value_name = "T", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
+    /// What the channels are: rgb, xyz, 8, 16, 45, native or hero.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) spectrum: Option<SpectrumName>,
     /// How directions are chosen on measured materials.
     #[arg(long, value_name = "NAME")]
     pub(crate) sampler: Option<SamplerName>,

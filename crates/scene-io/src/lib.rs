@@ -5,6 +5,7 @@
 //!
 //! - [`SceneFile`] -> [`build_scene`] -> [`BuiltScene`]: RON scenes to what the tracer renders.
 //! - [`material`]: measured files and models to materials.
+//! - [`spectral`]: scenes and films in other channels than linear sRGB.
 //! - [`image`], [`compare`]: EXR and PNG, and how far two pictures are apart.
 //! - [`converge`]: error against run time of several ways to render a scene.
 //! - [`survey`]: how noisy, how fast and how right a sampler of a material is.
@@ -21,6 +22,7 @@ pub mod material;
 pub mod mesh;
 pub mod scene;
 pub mod sealed;
+pub mod spectral;
 pub mod survey;
 pub mod write;
 
@@ -31,7 +33,7 @@ mod data_dirs;
 mod error;
 mod overrides;
 
-pub use build::{BuiltScene, MaterialReport, Places, build_scene};
+pub use build::{BuiltScene, MaterialReport, Places, build_any_scene, build_scene};
 pub use cache::Cache;
 pub use compare::{Metrics, ZStatistics, compare};
 pub use data_dirs::DataDirs;

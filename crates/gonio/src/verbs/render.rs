@@ -10,13 +10,13 @@ use crate::process;
 use anyhow::{Context as _, Result};
 use progress::Watch;
 use report::Report;
-use scene_io::image::{Metadata, Picture, write_exr, write_png};
+use scene_io::image::{Metadata, Picture, write_exr, write_png, write_spectral_exr};
 use scene_io::scene::MaterialSpec;
-use scene_io::{BuiltScene, DEFAULT_SCENE, Overrides, SceneFile, build_scene};
+use scene_io::spectral::{AnyFilm, AnyScene};
+use scene_io::{BuiltScene, DEFAULT_SCENE, Overrides, SceneFile, build_any_scene};
 use std::num::NonZeroUsize;
 use std::path::Path;
 use std::time::Instant;
-use tracer::Film;
 
 /// Independent scrambles of the points, from whose differences the error is estimated.
 const REPLICATES: u32 = 8;
@@ -33,7 +33,7 @@ pub(crate) fn run(context: &Context, args: &Render) -> Result<()> {
         )?,
     };
     let start = Instant::now();
-    let mut built = build_scene(file, &overrides(args), &context.places)?;
+    let mut built = build_any_scene(file, &overrides(args), &context.places)?;
     built.settings.threads = args.threads.and_then(|t| NonZeroUsize::new(t.into()));
     let build_seconds = start.elapsed().as_secs_f64();
     for note in &built.notes {
@@ -55,6 +55,7 @@ fn overrides(args: &Render) -> Overrides {
             .map(|m| MaterialSpec::from_argument(&m.to_string_lossy())),
         interpolation: args.interpolation,
         sampler: args.sampler,
+        spectrum: args.spectrum,
         spp: args.spp,
         seed: args.seed,
         size: args.size,
@@ -64,22 +65,23 @@ fn overrides(args: &Render) -> Overrides {
 
 /// What a render left behind.
 struct Traced {
-    film: Film<3>,
+    film: AnyFilm,
     stats: tracer::Stats,
     seconds: f64,
     cpu_seconds: f64,
     interrupted: bool,
 }
 
-fn trace(built: &BuiltScene, context: &Context) -> Result<Traced> {
+fn trace(built: &BuiltScene<AnyScene>, context: &Context) -> Result<Traced> {
     let (width, height) = built.size;
-    let mut film = Film::new(width, height, REPLICATES.min(built.settings.spp.max(1)));
+    let replicates = REPLICATES.min(built.settings.spp.max(1));
+    let mut film = built.scene.film([width, height], replicates);
     let watch = Watch::new(
         u64::from(width) * u64::from(height) * u64::from(built.settings.spp),
         context.json,
     )?;
     let (start, cpu) = (Instant::now(), process::cpu_seconds());
-    let stats = tracer::render(&built.scene, &built.settings, &mut film, &watch)?;
+    let stats = (built.scene).render(&built.settings, &mut film, &watch)?;
     watch.finish();
     Ok(Traced {
         film,
@@ -90,8 +92,13 @@ fn trace(built: &BuiltScene, context: &Context) -> Result<Traced> {
     })
 }
 
-fn write(built: &BuiltScene, traced: &Traced, args: &Render, build_seconds: f64) -> Result<Report> {
-    let mut picture = Picture::of_film(&traced.film)?;
+fn write(
+    built: &BuiltScene<AnyScene>,
+    traced: &Traced,
+    args: &Render,
+    build_seconds: f64,
+) -> Result<Report> {
+    let mut picture = Picture::of_film(&traced.film.rgb())?;
     let report = Report::new(built, traced, args, build_seconds);
     picture.metadata = Metadata {
         scene: Some(report.scene.clone()),
@@ -101,7 +108,10 @@ fn write(built: &BuiltScene, traced: &Traced, args: &Render, build_seconds: f64)
         version: Some(env!("CARGO_PKG_VERSION").into()),
         sampler: Some(report.sampler.clone()),
     };
-    write_exr(&args.output, &picture)?;
+    match traced.film.spectral() {
+        Some(spectral) => write_spectral_exr(&args.output, &picture, &spectral)?,
+        None => write_exr(&args.output, &picture)?,
+    }
     let png = args.output.with_extension("png");
     write_png(&png, &picture, built.tone_map(&picture)).context("the EXR was written")?;
     Ok(report)

@@ -24,3 +24,5 @@ mod output;
 mod program;
 #[cfg(test)]
 mod samplers;
+#[cfg(test)]
+mod spectra;

@@ -4,6 +4,7 @@ use super::Traced;
 use crate::args::Render;
 use crate::output::say;
 use scene_io::BuiltScene;
+use scene_io::spectral::AnyScene;
 use serde::Serialize;
 use std::fmt::{self, Write};
 use std::path::PathBuf;
@@ -30,20 +31,21 @@ pub(super) struct Report {
 
 impl Report {
     pub(super) fn new(
-        built: &BuiltScene,
+        built: &BuiltScene<AnyScene>,
         traced: &Traced,
         args: &Render,
         build_seconds: f64,
     ) -> Self {
-        let estimate = traced.film.estimate(CONFIDENCE);
+        let film = traced.film.rgb();
+        let estimate = film.estimate(CONFIDENCE);
         let known = estimate.rel_rmse.is_finite();
         let main = built.materials.first();
         Self {
             written: vec![args.output.clone(), args.output.with_extension("png")],
             scene: built.file.path.display().to_string(),
             sampler: main.map_or_else(|| "none".into(), |m| m.sampler.name.to_string()),
-            spectrum: "rgb",
-            spp: traced.film.samples() / u64::from(built.size.0 * built.size.1).max(1),
+            spectrum: built.file.render.spectrum.name(),
+            spp: film.samples() / u64::from(built.size.0 * built.size.1).max(1),
             seconds: traced.seconds,
             cpu_seconds: traced.cpu_seconds,
             build_seconds,
@@ -95,14 +97,14 @@ impl Report {
 }
 
 /// What the scene and its files do not use, and what the tracer then does without.
-fn left_out(built: &BuiltScene) -> Vec<String> {
+fn left_out(built: &BuiltScene<AnyScene>) -> Vec<String> {
     let traced = built.scene.left_out(&built.settings);
     let traced = traced.iter().map(ToString::to_string);
     built.left_out.iter().cloned().chain(traced).collect()
 }
 
 /// What was built, and what was not.
-pub(super) fn explain(built: &BuiltScene, build_seconds: f64) {
+pub(super) fn explain(built: &BuiltScene<AnyScene>, build_seconds: f64) {
     say(format_args!("built in {build_seconds:.3} s:"));
     for material in &built.materials {
         let file = material
