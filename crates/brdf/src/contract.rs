@@ -12,6 +12,11 @@ pub struct Symmetry {
     /// f depends on the azimuth difference alone.
     pub isotropic: bool,
     /// f(wi, wo) = f(wo, wi) by construction.
+    ///
+    /// This is the law of reflection. Of a BSDF that transmits, f(wi, wo)/eta_o^2 = f(wo, wi)/eta_i^2 holds, with
+    /// the refractive indices on the sides of the two directions [Veach1997]: the eta^2 belongs here, into the
+    /// meaning of this claim, and into [`crate::Material`], which knows what is transported. Only reflection is
+    /// implemented, where both indices are the same and cancel.
     pub reciprocal: bool,
 }
 
