@@ -13,6 +13,7 @@
 mod check;
 mod codegen;
 mod curet;
+mod compare;
 mod fixtures;
 mod interpolation;
 mod ngan;
@@ -34,6 +35,7 @@ cargo xtask codegen       make the generated tables again; --check: compare only
 cargo xtask interpolation cross-validate the interpolants on Cornell files
 cargo xtask curet       rough diffuse models fitted to CUReT
 cargo xtask ngan DIR     our fits against the published ones, on a folder of MERL files
+cargo xtask compare     time to 1 % error beside another renderer
 cargo xtask render-all    all scenes their data allow, with a contact sheet; see --help
 ";
 
@@ -58,6 +60,7 @@ fn run(args: &[String]) -> Result<()> {
         Some("codegen") => codegen::run(rest),
         Some("interpolation") => interpolation::run(rest),
         Some("curet") => curet::run(),
+        Some("compare") => compare::run(rest),
         Some("ngan") => ngan::run(rest),
         Some("render-all") => render_all::run(rest),
         Some("help" | "--help" | "-h") => {

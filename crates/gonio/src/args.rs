@@ -3,6 +3,7 @@
 use crate::verbs::converge::Converge;
 use crate::verbs::stress::Stress;
 use crate::verbs::fit::Fit;
+use crate::verbs::samplers::Samplers;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use scene_io::scene::{InterpolationName, SamplerName, SpectrumName};
 use std::path::PathBuf;
@@ -39,6 +40,7 @@ pub(crate) enum Verb {
     Compare(Compare),
     Stress(Stress),
     Fit(Fit),
+    Samplers(Samplers),
     Spectra(crate::verbs::spectra::Spectra),
     Converge(Converge),
 }

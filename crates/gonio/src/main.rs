@@ -70,6 +70,7 @@ fn run(cli: &Cli) -> anyhow::Result<()> {
         Some(Verb::Convert(args)) => verbs::convert::run(&context, args),
         Some(Verb::Measure(args)) => verbs::measure::run(&context, args),
         Some(Verb::Fit(args)) => verbs::fit::run(&context, args),
+        Some(Verb::Samplers(args)) => verbs::samplers::run(&context, args),
         Some(Verb::Converge(args)) => verbs::converge::run(&context, args),
         Some(Verb::Compare(args)) => verbs::compare::run(&context, args),
         Some(Verb::Stress(args)) => verbs::stress::run(&context, args),

@@ -10,6 +10,7 @@ pub(crate) mod measure;
 pub(crate) mod mix;
 pub(crate) mod plot;
 pub(crate) mod render;
+pub(crate) mod samplers;
 pub(crate) mod spectra;
 pub(crate) mod stress;
 

@@ -4,6 +4,7 @@
 //! and the verdict from chi-square tests of samples against the density they claim, at several viewers.
 
 mod cost;
+mod floor;
 mod verdict;
 
 pub use cost::PacketCost;
@@ -13,11 +14,13 @@ use crate::cache::Cache;
 use crate::error::Error;
 use crate::material::{self, Surface, Visitor, luminance};
 use crate::scene::SamplerName;
-use brdf::{Brdf, DirectionSampler};
+use brdf::{Brdf, DirectionSampler, direction};
 use brdf_sampling::{
-    OFF_GRID, SHOWN_DEG, SamplerCost, SamplerReport, Target, sampler_cost, sampler_report,
+    OFF_GRID, SHOWN_DEG, SamplerCost, SamplerReport, Target, off_grid_deg, sampler_cost,
+    sampler_report,
 };
 use glam::DVec3;
+use rayon::prelude::*;
 
 /// Samples a viewer, unless the time is short.
 const SAMPLES: usize = 20_000;
@@ -76,6 +79,15 @@ impl Surface {
         self.sampler(name, cache, measuring)
     }
 
+    /// The colour floor J*: the least relative variance, mean over channels and over the 24 viewers of a survey, that
+    /// one density for all channels can have.
+    ///
+    /// # Errors
+    /// None for reflectances that can be tabulated, as all can today.
+    pub fn colour_floor(&self, cache: &Cache) -> Result<f64, Error> {
+        self.sampler(SamplerName::HvtFine, cache, Floor(self.brdf()))
+    }
+
     /// The samplers that go with this reflectance, simplest first.
     #[must_use]
     pub fn samplers(&self) -> Vec<SamplerName> {
@@ -86,6 +98,21 @@ impl Surface {
             _ => true,
         })
         .collect()
+    }
+}
+
+struct Floor<'a>(&'a dyn Brdf<3>);
+
+impl Visitor for Floor<'_> {
+    type Out = f64;
+
+    fn visit<S: DirectionSampler + 'static>(self, sampler: S, _: material::SamplerReport) -> f64 {
+        let at = |k| direction(off_grid_deg(k).to_radians(), 0.0);
+        let floors = (0..OFF_GRID).into_par_iter();
+        floors
+            .map(|k| floor::colour_floor(self.0, &sampler, at(k)))
+            .sum::<f64>()
+            / OFF_GRID as f64
     }
 }
 

@@ -11,7 +11,7 @@ use clap::Args;
 use report::Report;
 use scene_io::converge::{self, Clock, Method, Options, Outcome};
 use scene_io::image::write_exr;
-use scene_io::scene::MaterialSpec;
+use scene_io::scene::{InterpolationName, MaterialSpec};
 use scene_io::{DEFAULT_SCENE, Error, ErrorKind, Overrides, SceneFile};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -34,6 +34,9 @@ pub(crate) struct Converge {
     /// Replaces the scene's main material: a file, or a model such as ggx:alpha=0.1.
     #[arg(long, value_name = "FILE|MODEL")]
     pub(crate) material: Option<PathBuf>,
+    /// Interpolation of the main material's table.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) interpolation: Option<InterpolationName>,
     /// What is compared, comma separated.
     #[arg(
         long,
@@ -125,6 +128,7 @@ fn options(args: &Converge) -> Options {
             material: (args.material.as_ref())
                 .map(|m| MaterialSpec::from_argument(&m.to_string_lossy())),
             size: args.size,
+            interpolation: args.interpolation,
             ..Overrides::default()
         },
         seconds: args.seconds,
@@ -190,7 +194,7 @@ fn write(outcome: &Outcome, args: &Converge, title: &str) -> Result<(), Error> {
     Ok(())
 }
 
-fn parse_seconds(text: &str) -> Result<f64, String> {
+pub(super) fn parse_seconds(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(s) if s > 0.0 && s <= 1e7 => Ok(s),
         _ => Err("expected seconds above 0, at most 1e7".into()),

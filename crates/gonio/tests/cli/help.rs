@@ -8,7 +8,7 @@ fn help_texts() {
     insta::assert_snapshot!("gonio", bench.text("--help"));
     for verb in [
         "render", "info", "eval", "plot", "mix", "convert", "measure", "compare", "converge",
-        "fit", "spectra", "stress",
+        "fit", "samplers", "spectra", "stress",
     ] {
         let help = bench.text(&format!("{verb} --help"));
         assert!(

@@ -25,4 +25,6 @@ mod output;
 #[cfg(test)]
 mod program;
 #[cfg(test)]
+mod samplers;
+#[cfg(test)]
 mod spectra;
