@@ -1,7 +1,8 @@
 //! The command line as typed: verbs, flags, help. Nothing here does work.
 
+use crate::verbs::render::Render;
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use scene_io::scene::{InterpolationName, SamplerName};
+use scene_io::scene::InterpolationName;
 use std::path::PathBuf;
 
 /// Check, see, convert and render measured reflectance.
@@ -34,47 +35,6 @@ pub(crate) enum Verb {
     Convert(Convert),
     Measure(Measure),
     Compare(Compare),
-}
-
-/// Render a scene to EXR and PNG, with its own error estimate.
-///
-/// Ctrl-C finishes the tiles at hand and writes what there is (exit code 0, `interrupted` in JSON); a second one ends the
-/// program at once (130).
-#[derive(Debug, Default, Args)]
-#[command(after_help = "Examples:
-  gonio render                                              the embedded default: two materials measured on the fly
-  gonio render --material brass.binary -o brass.exr         your file in the default scene
-  gonio render scenes/benchmark/scene.ron --material FILE --spp 64 --threads 2 --json")]
-pub(crate) struct Render {
-    /// Scene in RON; without it the embedded default scene.
-    pub(crate) scene: Option<PathBuf>,
-    /// Output; a tone-mapped PNG is written beside it.
-    #[arg(short, long, value_name = "OUT.exr", default_value = "gonio.exr", value_parser = parse_exr)]
-    pub(crate) output: PathBuf,
-    /// Replaces the scene's main material by any readable file.
-    #[arg(long, value_name = "FILE")]
-    pub(crate) material: Option<PathBuf>,
-    /// Samples a pixel.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
-    pub(crate) spp: Option<u32>,
-    /// Seed: same seed, same bits, whatever the threads.
-    #[arg(long, value_name = "S")]
-    pub(crate) seed: Option<u64>,
-    /// Worker threads; all cores by default.
-    #[arg(long, value_name = "T", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(crate) threads: Option<u16>,
-    /// How directions are chosen on measured materials.
-    #[arg(long, value_name = "NAME")]
-    pub(crate) sampler: Option<SamplerName>,
-    /// Interpolation of tables: see `gonio info FILE` for what a format offers.
-    #[arg(long, value_name = "NAME")]
-    pub(crate) interpolation: Option<InterpolationName>,
-    /// Size in pixels, such as 320x240.
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
-    pub(crate) size: Option<(u32, u32)>,
-    /// Say what the scene does not need and is left out.
-    #[arg(long)]
-    pub(crate) explain: bool,
 }
 
 /// Say what a file is: format, grid, channels, colour, validity.
@@ -225,17 +185,7 @@ pub(crate) struct Compare {
     pub(crate) b: PathBuf,
 }
 
-impl Render {
-    /// What `gonio` without a verb does.
-    pub(crate) fn embedded_default() -> Self {
-        Self {
-            output: PathBuf::from("gonio.exr"),
-            ..Self::default()
-        }
-    }
-}
-
-fn parse_exr(text: &str) -> Result<PathBuf, String> {
+pub(crate) fn parse_exr(text: &str) -> Result<PathBuf, String> {
     with_ending(
         text,
         &["exr"],
@@ -247,7 +197,7 @@ fn parse_picture(text: &str) -> Result<PathBuf, String> {
     with_ending(text, &["svg", "png"], "an output ending in .svg or .png")
 }
 
-fn with_ending(text: &str, endings: &[&str], expected: &str) -> Result<PathBuf, String> {
+pub(crate) fn with_ending(text: &str, endings: &[&str], expected: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     let ending = path
         .extension()
@@ -275,19 +225,9 @@ fn parse_finite(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "expected a finite number".into())
 }
 
-fn parse_not_negative(text: &str) -> Result<f64, String> {
+pub(crate) fn parse_not_negative(text: &str) -> Result<f64, String> {
     parse_finite(text)
         .ok()
         .filter(|v| *v >= 0.0)
         .ok_or_else(|| "expected a number, 0 or more".into())
-}
-
-fn parse_size(text: &str) -> Result<(u32, u32), String> {
-    let sides = text
-        .split_once('x')
-        .and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
-    match sides {
-        Some((w, h)) if (1..=16_384).contains(&w) && (1..=16_384).contains(&h) => Ok((w, h)),
-        _ => Err("expected WIDTHxHEIGHT, each 1 to 16384, such as 640x480".into()),
-    }
 }

@@ -96,6 +96,7 @@ fn build(file: SceneFile, places: &Places) -> Result<BuiltScene, Error> {
         lights,
         environment,
     };
+    notes.extend(uneven(&file, &used.reports));
     let scene = Scene::new(description).map_err(|e| Error::invalid(e.to_string()))?;
     Ok(BuiltScene {
         settings: settings(&file),
@@ -107,6 +108,20 @@ fn build(file: SceneFile, places: &Places) -> Result<BuiltScene, Error> {
         file,
         notes,
     })
+}
+
+/// Warns of samplers that undo what even points are for.
+fn uneven(file: &SceneFile, materials: &[MaterialReport]) -> Vec<String> {
+    let even = file.render.points != PointsName::Independent;
+    let broken = materials.iter().filter(|m| even && !m.sampler.stratified);
+    broken
+        .map(|m| {
+            format!(
+                "material \"{}\": sampler {} breaks the stratification of the points: the error falls no faster than with independent ones",
+                m.name, m.sampler.name
+            )
+        })
+        .collect()
 }
 
 fn settings(file: &SceneFile) -> Settings {

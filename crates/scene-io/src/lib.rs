@@ -6,6 +6,7 @@
 //! - [`SceneFile`] -> [`build_scene`] -> [`BuiltScene`]: RON scenes to what the tracer renders.
 //! - [`material`]: measured files and models to materials.
 //! - [`image`], [`compare`]: EXR and PNG, and how far two pictures are apart.
+//! - [`rows`]: error against run time, as a render goes on.
 //! - [`checkpoint`], [`Cache`]: what gonio keeps for itself.
 //!
 //! No process-wide state, no environment variables: folders to search and to cache in are arguments.
@@ -16,6 +17,7 @@ pub mod image;
 pub mod load;
 pub mod material;
 pub mod mesh;
+pub mod rows;
 pub mod scene;
 pub mod sealed;
 pub mod write;

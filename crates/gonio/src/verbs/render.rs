@@ -1,15 +1,18 @@
 //! `gonio render [SCENE.ron]`.
 
+mod args;
+mod error_map;
 mod progress;
 mod report;
 
 use super::Context;
-use crate::args::Render;
 use crate::output::say;
 use anyhow::{Context as _, Result};
+pub(crate) use args::Render;
 use progress::Watch;
 use report::Report;
 use scene_io::image::{Metadata, Picture, write_exr, write_png};
+use scene_io::rows::{Recorder, Row};
 use scene_io::scene::MaterialSpec;
 use scene_io::{BuiltScene, DEFAULT_SCENE, Overrides, SceneFile, build_scene};
 use std::num::NonZeroUsize;
@@ -23,6 +26,13 @@ const REPLICATES: u32 = 8;
 pub(crate) fn run(context: &Context, args: &Render) -> Result<()> {
     // hours of rendering must not end at a folder that does not exist
     scene_io::write::check(&args.output)?;
+    if let Some(map) = &args.error_map {
+        scene_io::write::check(map)?;
+    }
+    let recorder = match &args.rows {
+        Some(path) => Recorder::to_file(path)?,
+        None => Recorder::new(),
+    };
     let file = match &args.scene {
         Some(path) => SceneFile::load(path)?,
         None => SceneFile::from_text(
@@ -41,7 +51,7 @@ pub(crate) fn run(context: &Context, args: &Render) -> Result<()> {
     if args.explain && !context.json {
         report::explain(&built, build_seconds);
     }
-    let film = trace(&built, context)?;
+    let film = trace(&built, context, recorder)?;
     let report = write(&built, &film, args, build_seconds)?;
     context.report(&report, |out| report.print(args, out))
 }
@@ -68,24 +78,27 @@ struct Traced {
     seconds: f64,
     cpu_seconds: f64,
     interrupted: bool,
+    rows: Vec<Row>,
 }
 
-fn trace(built: &BuiltScene, context: &Context) -> Result<Traced> {
+fn trace(built: &BuiltScene, context: &Context, recorder: Recorder) -> Result<Traced> {
     let (width, height) = built.size;
     let mut film = Film::new(width, height, REPLICATES.min(built.settings.spp.max(1)));
     let watch = Watch::new(
         u64::from(width) * u64::from(height) * u64::from(built.settings.spp),
         context.json,
+        recorder,
     )?;
-    let (start, cpu) = (Instant::now(), progress::cpu_seconds());
     let stats = tracer::render(&built.scene, &built.settings, &mut film, &watch)?;
-    watch.finish();
+    let [seconds, cpu_seconds] = watch.seconds();
+    let interrupted = watch.interrupted();
     Ok(Traced {
         film,
         stats,
-        seconds: start.elapsed().as_secs_f64(),
-        cpu_seconds: progress::cpu_seconds() - cpu,
-        interrupted: watch.interrupted(),
+        seconds,
+        cpu_seconds,
+        interrupted,
+        rows: watch.finish()?,
     })
 }
 
@@ -103,5 +116,8 @@ fn write(built: &BuiltScene, traced: &Traced, args: &Render, build_seconds: f64)
     write_exr(&args.output, &picture)?;
     let png = args.output.with_extension("png");
     write_png(&png, &picture, built.tone_map(&picture)).context("the EXR was written")?;
+    if let Some(map) = &args.error_map {
+        error_map::write(map, &traced.film).context("the picture was written")?;
+    }
     Ok(report)
 }

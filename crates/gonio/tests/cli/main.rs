@@ -20,3 +20,5 @@ mod interrupt;
 mod output;
 #[cfg(test)]
 mod program;
+#[cfg(test)]
+mod rows;

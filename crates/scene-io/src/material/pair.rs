@@ -24,6 +24,8 @@ pub struct SamplerReport {
     pub bytes: usize,
     /// Seconds it took to build.
     pub build_seconds: f64,
+    /// Whether it keeps the evenness of low-discrepancy points.
+    pub stratified: bool,
     /// What a user may want to know.
     pub notes: Vec<String>,
 }
@@ -34,6 +36,7 @@ impl SamplerReport {
             name,
             bytes,
             build_seconds: 0.0,
+            stratified: true,
             notes: Vec::new(),
         }
     }
@@ -79,7 +82,8 @@ fn with<B: Brdf<3> + 'static, S: DirectionSampler + 'static>(
     sampler: S,
     name: SamplerName,
 ) -> Pair {
-    let report = SamplerReport::new(name, sampler.bytes());
+    let mut report = SamplerReport::new(name, sampler.bytes());
+    report.stratified = sampler.keeps_stratification();
     (Box::new(Paired { brdf, sampler }), report)
 }
 

@@ -3,10 +3,13 @@
 use crate::output::say;
 use anyhow::{Context as _, Result};
 use indicatif::{ProgressBar, ProgressStyle};
+use scene_io::rows::{CONFIDENCE, Recorder, Row};
 use std::io::IsTerminal;
-use std::sync::Arc;
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use tracer::Progress;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Instant;
+use tracer::{Film, Progress};
 
 /// Watches a render: a bar with the time left on a terminal, a line every tenth elsewhere; Ctrl-C ends it after the
 /// tiles at hand.
@@ -17,11 +20,15 @@ pub(super) struct Watch {
     /// Plain lines instead of a bar.
     plain: bool,
     stop: Arc<AtomicBool>,
+    start: Instant,
+    cpu: f64,
+    /// The rows, and what went wrong writing them.
+    rows: Mutex<(Recorder, Option<scene_io::Error>)>,
 }
 
 impl Watch {
     /// `total` paths; `quiet` shows nothing unless stderr is a terminal.
-    pub(super) fn new(total: u64, quiet: bool) -> Result<Self> {
+    pub(super) fn new(total: u64, quiet: bool, recorder: Recorder) -> Result<Self> {
         let stop = Arc::new(AtomicBool::new(false));
         let flag = Arc::clone(&stop);
         ctrlc::set_handler(move || interrupt(&flag)).context("cannot watch for Ctrl-C")?;
@@ -40,11 +47,28 @@ impl Watch {
             done: AtomicU64::new(0),
             plain: !terminal && !quiet,
             stop,
+            start: Instant::now(),
+            cpu: cpu_seconds(),
+            rows: Mutex::new((recorder, None)),
         })
     }
 
-    pub(super) fn finish(&self) {
+    /// The rows, once the render has ended.
+    pub(super) fn finish(self) -> Result<Vec<Row>> {
         self.bar.finish_and_clear();
+        let (recorder, error) = self
+            .rows
+            .into_inner()
+            .unwrap_or_else(PoisonError::into_inner);
+        match error {
+            Some(error) => Err(error.into()),
+            None => Ok(recorder.rows().to_vec()),
+        }
+    }
+
+    /// Wall-clock and processor seconds since the start.
+    pub(super) fn seconds(&self) -> [f64; 2] {
+        [self.start.elapsed().as_secs_f64(), cpu_seconds() - self.cpu]
     }
 
     pub(super) fn interrupted(&self) -> bool {
@@ -65,6 +89,18 @@ impl<const N: usize> Progress<N> for Watch {
             say(format_args!("rendered {} %", tenth(before + paths) * 10));
         }
     }
+
+    fn pass_done(&self, film: &Film<N>) -> ControlFlow<()> {
+        let seconds = self.seconds();
+        let mut rows = self.rows.lock().unwrap_or_else(PoisonError::into_inner);
+        match rows.0.push(seconds, film.spp(), &film.estimate(CONFIDENCE)) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(error) => {
+                rows.1 = Some(error);
+                ControlFlow::Break(())
+            }
+        }
+    }
 }
 
 /// The first Ctrl-C asks the render to end, the second ends the program: with 130, as shells do for signal 2.
@@ -80,7 +116,7 @@ fn interrupt(stop: &AtomicBool) {
 }
 
 /// Seconds of processor time this process has used, all threads; 0 where the system does not say.
-pub(super) fn cpu_seconds() -> f64 {
+fn cpu_seconds() -> f64 {
     #[cfg(unix)]
     {
         let time = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);

@@ -1,15 +1,34 @@
 //! What a render says of itself.
 
-use super::Traced;
-use crate::args::Render;
+use super::{Render, Traced};
 use crate::output::say;
 use scene_io::BuiltScene;
+use scene_io::rows::{CONFIDENCE, Row};
 use serde::Serialize;
 use std::fmt::{self, Write};
 use std::path::PathBuf;
 
-/// Confidence of the interval around the error.
-const CONFIDENCE: f64 = 0.95;
+/// [`Row`] as JSON.
+#[derive(Serialize)]
+struct RowJson {
+    seconds: f64,
+    cpu_seconds: f64,
+    spp: u32,
+    rel_rmse: f64,
+    rel_rmse_ci: [f64; 2],
+}
+
+impl From<&Row> for RowJson {
+    fn from(row: &Row) -> Self {
+        Self {
+            seconds: row.seconds,
+            cpu_seconds: row.cpu_seconds,
+            spp: row.spp,
+            rel_rmse: row.rel_rmse,
+            rel_rmse_ci: row.ci,
+        }
+    }
+}
 
 #[derive(Serialize)]
 pub(super) struct Report {
@@ -22,8 +41,11 @@ pub(super) struct Report {
     cpu_seconds: f64,
     build_seconds: f64,
     paths_per_second: f64,
+    rmse: Option<f64>,
+    rmse_ci: Option<[f64; 2]>,
     rel_rmse: Option<f64>,
     rel_rmse_ci: Option<[f64; 2]>,
+    rows: Vec<RowJson>,
     left_out: Vec<String>,
     interrupted: bool,
 }
@@ -39,7 +61,12 @@ impl Report {
         let known = estimate.rel_rmse.is_finite();
         let main = built.materials.first();
         Self {
-            written: vec![args.output.clone(), args.output.with_extension("png")],
+            written: [&args.output, &args.output.with_extension("png")]
+                .into_iter()
+                .chain(&args.error_map)
+                .chain(&args.rows)
+                .cloned()
+                .collect(),
             scene: built.file.path.display().to_string(),
             sampler: main.map_or_else(|| "none".into(), |m| m.sampler.name.to_string()),
             spectrum: "rgb",
@@ -48,8 +75,11 @@ impl Report {
             cpu_seconds: traced.cpu_seconds,
             build_seconds,
             paths_per_second: traced.stats.paths as f64 / traced.seconds.max(1e-9),
+            rmse: known.then_some(estimate.rmse),
+            rmse_ci: known.then_some(estimate.rmse_ci),
             rel_rmse: known.then_some(estimate.rel_rmse),
             rel_rmse_ci: known.then_some(estimate.rel_rmse_ci),
+            rows: traced.rows.iter().map(RowJson::from).collect(),
             left_out: left_out(built),
             interrupted: traced.interrupted,
         }
@@ -70,16 +100,7 @@ impl Report {
             self.build_seconds,
             self.paths_per_second / 1e6
         )?;
-        match (self.rel_rmse, self.rel_rmse_ci) {
-            (Some(error), Some([low, high])) => writeln!(
-                out,
-                "relative RMSE {:.3} %, 95 % interval {:.3} to {:.3} %",
-                100.0 * error,
-                100.0 * low,
-                100.0 * high
-            ),
-            _ => writeln!(out, "relative RMSE unknown: too few samples to estimate it"),
-        }?;
+        self.print_error(out)?;
         for path in &self.written {
             writeln!(out, "wrote {}", path.display())?;
         }
@@ -91,6 +112,25 @@ impl Report {
             )?;
         }
         Ok(())
+    }
+}
+
+impl Report {
+    fn print_error(&self, out: &mut String) -> fmt::Result {
+        let (Some(rmse), Some(rmse_ci), Some(rel), Some(rel_ci)) =
+            (self.rmse, self.rmse_ci, self.rel_rmse, self.rel_rmse_ci)
+        else {
+            return writeln!(out, "relative RMSE unknown: too few samples to estimate it");
+        };
+        writeln!(
+            out,
+            "relative RMSE {:.3} %, 95 % interval {:.3} to {:.3} %; RMSE {rmse:.3e} ({:.3e} to {:.3e})",
+            100.0 * rel,
+            100.0 * rel_ci[0],
+            100.0 * rel_ci[1],
+            rmse_ci[0],
+            rmse_ci[1]
+        )
     }
 }
 
