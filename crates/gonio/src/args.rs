@@ -1,5 +1,6 @@
 //! The command line as typed: verbs, flags, help. Nothing here does work.
 
+use crate::verbs::merge::Merge;
 use crate::verbs::render::Render;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use scene_io::scene::InterpolationName;
@@ -28,6 +29,7 @@ pub(crate) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Verb {
     Render(Render),
+    Merge(Merge),
     Info(Info),
     Eval(Eval),
     Plot(Plot),

@@ -62,6 +62,7 @@ fn run(cli: &Cli) -> anyhow::Result<()> {
     match &cli.verb {
         None => verbs::render::run(&context, &verbs::render::Render::embedded_default()),
         Some(Verb::Render(args)) => verbs::render::run(&context, args),
+        Some(Verb::Merge(args)) => verbs::merge::run(&context, args),
         Some(Verb::Info(args)) => verbs::info::run(&context, args),
         Some(Verb::Eval(args)) => verbs::eval::run(&context, args),
         Some(Verb::Plot(args)) => verbs::plot::run(&context, args),

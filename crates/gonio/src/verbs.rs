@@ -5,6 +5,7 @@ pub(crate) mod convert;
 pub(crate) mod eval;
 pub(crate) mod info;
 pub(crate) mod measure;
+pub(crate) mod merge;
 pub(crate) mod mix;
 pub(crate) mod plot;
 pub(crate) mod render;

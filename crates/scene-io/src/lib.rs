@@ -27,6 +27,7 @@ mod cache;
 mod compare;
 mod data_dirs;
 mod error;
+mod fingerprint;
 mod overrides;
 
 pub use build::{BuiltScene, MaterialReport, Places, build_scene};
@@ -34,6 +35,7 @@ pub use cache::Cache;
 pub use compare::{Metrics, ZStatistics, compare};
 pub use data_dirs::DataDirs;
 pub use error::{Error, ErrorKind};
+pub use fingerprint::fingerprint;
 pub use overrides::Overrides;
 pub use scene::SceneFile;
 

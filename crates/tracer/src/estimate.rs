@@ -217,6 +217,36 @@ mod tests {
     }
 
     #[test]
+    fn variance_of_variance_is_unbiased_for_skewed_values_that_err_together() {
+        // exponential values, two channels of which the second is half the first: V = U / R with
+        // U = (1 + 1/4) s^2 and Var(s^2) = (m4 - m2^2 (R - 3) / (R - 1)) / R, m2 = 1, m4 = 9 [Hoeffding1948]
+        const R: usize = 8;
+        let mut rng = sampling::Rng::new(5);
+        let runs = 200_000;
+        let (mut sum, mut square) = (0.0, 0.0);
+        for _ in 0..runs {
+            let sums: [[f64; 2]; R] = std::array::from_fn(|_| {
+                let x = -(1.0 - rng.uniform()).ln();
+                [x, 0.5 * x]
+            });
+            let v = variance_of_variance(&sums, |_| 1);
+            sum += v;
+            square += v * v;
+        }
+        let n = f64::from(runs);
+        let mean = sum / n;
+        let error = ((square / n - mean * mean) / n).sqrt();
+        let r = R as f64;
+        let exact = 1.25 * 1.25 * (9.0 - (r - 3.0) / (r - 1.0)) / r / (r * r);
+        // 4 standard errors of a skewed mean, and an error bar that can tell 1 from 1.1
+        assert!(
+            (mean - exact).abs() < 4.0 * error,
+            "{mean} +- {error}, exact {exact}"
+        );
+        assert!(error < 0.02 * exact, "{error} of {exact}");
+    }
+
+    #[test]
     fn printed_quantiles() {
         assert!(
             (normal_quantile(0.975) - 1.959964).abs() < 5e-4,

@@ -2,14 +2,16 @@
 
 mod args;
 mod error_map;
+pub(crate) mod keeper;
 mod progress;
 mod report;
+mod strategy;
+mod trace;
 
 use super::Context;
 use crate::output::say;
 use anyhow::{Context as _, Result};
 pub(crate) use args::Render;
-use progress::Watch;
 use report::Report;
 use scene_io::image::{Metadata, Picture, write_exr, write_png};
 use scene_io::rows::{Recorder, Row};
@@ -18,10 +20,8 @@ use scene_io::{BuiltScene, DEFAULT_SCENE, Overrides, SceneFile, build_scene};
 use std::num::NonZeroUsize;
 use std::path::Path;
 use std::time::Instant;
+use trace::{Aimed, trace};
 use tracer::Film;
-
-/// Independent scrambles of the points, from whose differences the error is estimated.
-const REPLICATES: u32 = 8;
 
 pub(crate) fn run(context: &Context, args: &Render) -> Result<()> {
     // hours of rendering must not end at a folder that does not exist
@@ -48,11 +48,14 @@ pub(crate) fn run(context: &Context, args: &Render) -> Result<()> {
     for note in &built.notes {
         say(format_args!("note: {note}"));
     }
+    built.settings.shard = args.shard;
+    let trials = strategy::settle(&mut built, args.light_strategy)?;
     if args.explain && !context.json {
         report::explain(&built, build_seconds);
+        strategy::explain(&built, trials);
     }
-    let film = trace(&built, context, recorder)?;
-    let report = write(&built, &film, args, build_seconds)?;
+    let traced = trace(&mut built, context, args, recorder)?;
+    let report = write(&built, &traced, args, build_seconds)?;
     context.report(&report, |out| report.print(args, out))
 }
 
@@ -79,32 +82,15 @@ struct Traced {
     cpu_seconds: f64,
     interrupted: bool,
     rows: Vec<Row>,
-}
-
-fn trace(built: &BuiltScene, context: &Context, recorder: Recorder) -> Result<Traced> {
-    let (width, height) = built.size;
-    let mut film = Film::new(width, height, REPLICATES.min(built.settings.spp.max(1)));
-    let watch = Watch::new(
-        u64::from(width) * u64::from(height) * u64::from(built.settings.spp),
-        context.json,
-        recorder,
-    )?;
-    let stats = tracer::render(&built.scene, &built.settings, &mut film, &watch)?;
-    let [seconds, cpu_seconds] = watch.seconds();
-    let interrupted = watch.interrupted();
-    Ok(Traced {
-        film,
-        stats,
-        seconds,
-        cpu_seconds,
-        interrupted,
-        rows: watch.finish()?,
-    })
+    aimed: Option<Aimed>,
 }
 
 fn write(built: &BuiltScene, traced: &Traced, args: &Render, build_seconds: f64) -> Result<Report> {
-    let mut picture = Picture::of_film(&traced.film)?;
     let report = Report::new(built, traced, args, build_seconds);
+    if built.settings.shard.is_some() {
+        return Ok(report);
+    }
+    let mut picture = Picture::of_film(&traced.film)?;
     picture.metadata = Metadata {
         scene: Some(report.scene.clone()),
         seed: Some(built.settings.seed),

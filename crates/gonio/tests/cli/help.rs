@@ -7,7 +7,7 @@ fn help_texts() {
     let bench = Bench::new();
     insta::assert_snapshot!("gonio", bench.text("--help"));
     for verb in [
-        "render", "info", "eval", "plot", "mix", "convert", "measure", "compare",
+        "render", "merge", "info", "eval", "plot", "mix", "convert", "measure", "compare",
     ] {
         let help = bench.text(&format!("{verb} --help"));
         assert!(

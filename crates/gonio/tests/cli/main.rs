@@ -5,6 +5,8 @@ mod broken;
 #[cfg(test)]
 mod chain;
 #[cfg(test)]
+mod checkpoint;
+#[cfg(test)]
 mod data;
 #[cfg(test)]
 mod exact;
@@ -22,3 +24,5 @@ mod output;
 mod program;
 #[cfg(test)]
 mod rows;
+#[cfg(test)]
+mod stopping;

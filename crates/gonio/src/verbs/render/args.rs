@@ -1,9 +1,11 @@
 //! `gonio render` as typed.
 
+use super::strategy::LightStrategy;
 use crate::args::{parse_exr, with_ending};
 use clap::Args;
 use scene_io::scene::{InterpolationName, SamplerName};
 use std::path::PathBuf;
+use tracer::Shard;
 
 /// Render a scene to EXR and PNG, with its own error estimate.
 ///
@@ -13,7 +15,9 @@ use std::path::PathBuf;
 #[command(after_help = "Examples:
   gonio render                                              the embedded default: two materials measured on the fly
   gonio render --material brass.binary -o brass.exr         your file in the default scene
-  gonio render scenes/benchmark/scene.ron --material FILE --spp 64 --threads 2 --json")]
+  gonio render scenes/benchmark/scene.ron --material FILE --spp 64 --threads 2 --json
+  gonio render --target-error 1% -o sure.exr                as many samples as 1 % relative RMSE takes
+  gonio render --checkpoint part1 --shard 1/2               one of two parts, for `gonio merge`")]
 pub(crate) struct Render {
     /// Scene in RON; without it the embedded default scene.
     pub(crate) scene: Option<PathBuf>,
@@ -47,6 +51,34 @@ pub(crate) struct Render {
     /// A map of the relative standard error of each pixel, logarithmic colours.
     #[arg(long, value_name = "FILE.png", value_parser = parse_png)]
     pub(crate) error_map: Option<PathBuf>,
+    /// As many samples as it takes to stay below this relative RMSE, such as 1%: a pilot of another seed counts them, the
+    /// picture is that of `--spp` with this number. `--spp` sets the most.
+    #[arg(long, value_name = "ERROR", value_parser = parse_share, conflicts_with_all = ["time", "checkpoint", "shard"])]
+    pub(crate) target_error: Option<f64>,
+    /// Probability with which the target is met.
+    #[arg(long, value_name = "P", value_parser = parse_share, default_value = "95%", requires = "target_error")]
+    pub(crate) confidence: f64,
+    /// As many samples as fit into this time, such as 60s or 5m.
+    #[arg(long, value_name = "TIME", value_parser = parse_time, conflicts_with_all = ["spp", "checkpoint", "shard"])]
+    pub(crate) time: Option<f64>,
+    /// How light is found: by lights and material, with or without resampling; auto tries both on a pilot.
+    #[arg(
+        long,
+        value_enum,
+        default_value_t,
+        value_name = "NAME",
+        hide_possible_values = false
+    )]
+    pub(crate) light_strategy: LightStrategy,
+    /// Keeps the samples in FILE as it goes, and goes on from it if it exists: to the same bits.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) checkpoint: Option<PathBuf>,
+    /// Seconds between checkpoints.
+    #[arg(long, value_name = "S", default_value = "30", value_parser = parse_seconds, requires = "checkpoint")]
+    pub(crate) checkpoint_every: f64,
+    /// Render only part K of N, into the checkpoint; `gonio merge` puts parts together.
+    #[arg(long, value_name = "K/N", value_parser = parse_shard, requires = "checkpoint", conflicts_with_all = ["rows", "error_map"])]
+    pub(crate) shard: Option<Shard>,
     /// Say what the scene does not need and is left out.
     #[arg(long)]
     pub(crate) explain: bool,
@@ -57,6 +89,8 @@ impl Render {
     pub(crate) fn embedded_default() -> Self {
         Self {
             output: PathBuf::from("gonio.exr"),
+            checkpoint_every: 30.0,
+            confidence: 0.95,
             ..Self::default()
         }
     }
@@ -77,5 +111,49 @@ fn parse_size(text: &str) -> Result<(u32, u32), String> {
     match sides {
         Some((w, h)) if (1..=16_384).contains(&w) && (1..=16_384).contains(&h) => Ok((w, h)),
         _ => Err("expected WIDTHxHEIGHT, each 1 to 16384, such as 640x480".into()),
+    }
+}
+
+/// A share of one: 1% or 0.01.
+fn parse_share(text: &str) -> Result<f64, String> {
+    let (number, unit) = match text.strip_suffix('%') {
+        Some(number) => (number, 0.01),
+        None => (text, 1.0),
+    };
+    match number.trim().parse::<f64>() {
+        Ok(share) if share > 0.0 && share * unit < 1.0 => Ok(share * unit),
+        _ => Err("expected a share between 0 and 1, such as 1% or 0.01".into()),
+    }
+}
+
+fn parse_seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds > 0.0 && seconds <= 1e9 => Ok(seconds),
+        _ => Err("expected seconds, more than 0".into()),
+    }
+}
+
+/// 60, 60s, 5m, 2h.
+fn parse_time(text: &str) -> Result<f64, String> {
+    let wrong = || "expected a time such as 60s, 5m or 2h".to_owned();
+    let (number, unit) = match text.char_indices().last() {
+        Some((at, 's')) => (&text[..at], 1.0),
+        Some((at, 'm')) => (&text[..at], 60.0),
+        Some((at, 'h')) => (&text[..at], 3600.0),
+        _ => (text, 1.0),
+    };
+    Ok(unit * parse_seconds(number).map_err(|_| wrong())?)
+}
+
+fn parse_shard(text: &str) -> Result<Shard, String> {
+    let numbers = text
+        .split_once('/')
+        .and_then(|(k, n)| Some((k.parse::<u32>().ok()?, n.parse::<u32>().ok()?)));
+    match numbers {
+        Some((k, count)) if 1 <= k && k <= count => Ok(Shard {
+            index: k - 1,
+            count,
+        }),
+        _ => Err("expected K/N with K from 1 to N, such as 2/3".into()),
     }
 }

@@ -8,14 +8,14 @@ use std::io::IsTerminal;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 use tracer::{Film, Progress};
 
 /// Watches a render: a bar with the time left on a terminal, a line every tenth elsewhere; Ctrl-C ends it after the
 /// tiles at hand.
 pub(super) struct Watch {
     bar: ProgressBar,
-    total: u64,
+    total: AtomicU64,
     done: AtomicU64,
     /// Plain lines instead of a bar.
     plain: bool,
@@ -24,17 +24,29 @@ pub(super) struct Watch {
     cpu: f64,
     /// The rows, and what went wrong writing them.
     rows: Mutex<(Recorder, Option<scene_io::Error>)>,
+    /// How long to render before a pause, and since when.
+    every: Duration,
+    since: Mutex<Instant>,
+}
+
+/// Shows nothing of a render and ends it when the other is interrupted.
+pub(super) struct Silent<'a>(pub(super) &'a Watch);
+
+impl<const N: usize> Progress<N> for Silent<'_> {
+    fn cancelled(&self) -> bool {
+        self.0.interrupted()
+    }
 }
 
 impl Watch {
-    /// `total` paths; `quiet` shows nothing unless stderr is a terminal.
-    pub(super) fn new(total: u64, quiet: bool, recorder: Recorder) -> Result<Self> {
+    /// `quiet` shows nothing unless stderr is a terminal.
+    pub(super) fn new(quiet: bool, recorder: Recorder) -> Result<Self> {
         let stop = Arc::new(AtomicBool::new(false));
         let flag = Arc::clone(&stop);
         ctrlc::set_handler(move || interrupt(&flag)).context("cannot watch for Ctrl-C")?;
         let terminal = std::io::stderr().is_terminal();
         let bar = if terminal {
-            ProgressBar::new(total)
+            ProgressBar::new(0)
         } else {
             ProgressBar::hidden()
         };
@@ -43,14 +55,55 @@ impl Watch {
         )?);
         Ok(Self {
             bar,
-            total: total.max(1),
+            total: AtomicU64::new(1),
             done: AtomicU64::new(0),
             plain: !terminal && !quiet,
             stop,
             start: Instant::now(),
             cpu: cpu_seconds(),
             rows: Mutex::new((recorder, None)),
+            every: Duration::MAX,
+            since: Mutex::new(Instant::now()),
         })
+    }
+
+    /// `paths` more are to come.
+    pub(super) fn expect(&self, paths: u64) {
+        self.bar.inc_length(paths);
+        let total = self.done.load(Ordering::Relaxed) + paths;
+        self.total.store(total.max(1), Ordering::Relaxed);
+    }
+
+    /// Time counts from now on.
+    pub(super) fn restart(&mut self) {
+        (self.start, self.cpu) = (Instant::now(), cpu_seconds());
+        self.resume();
+    }
+
+    /// The render is to pause this often.
+    pub(super) fn pause_every(&mut self, every: Duration) {
+        self.every = every;
+    }
+
+    /// Ends a pause.
+    pub(super) fn resume(&self) {
+        *self.since.lock().unwrap_or_else(PoisonError::into_inner) = Instant::now();
+    }
+
+    fn pauses(&self) -> bool {
+        self.every < Duration::MAX
+            && self
+                .since
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .elapsed()
+                >= self.every
+    }
+
+    /// Whether rendering must not go on: interrupted, or the rows can't be written.
+    pub(super) fn ended(&self) -> bool {
+        let rows = self.rows.lock().unwrap_or_else(PoisonError::into_inner);
+        self.interrupted() || rows.1.is_some()
     }
 
     /// The rows, once the render has ended.
@@ -78,13 +131,14 @@ impl Watch {
 
 impl<const N: usize> Progress<N> for Watch {
     fn cancelled(&self) -> bool {
-        self.interrupted()
+        self.interrupted() || self.pauses()
     }
 
     fn tile_done(&self, paths: u64) {
         let before = self.done.fetch_add(paths, Ordering::Relaxed);
         self.bar.inc(paths);
-        let tenth = |done: u64| done * 10 / self.total;
+        let total = self.total.load(Ordering::Relaxed);
+        let tenth = |done: u64| done * 10 / total;
         if self.plain && tenth(before + paths) > tenth(before) {
             say(format_args!("rendered {} %", tenth(before + paths) * 10));
         }
@@ -92,6 +146,10 @@ impl<const N: usize> Progress<N> for Watch {
 
     fn pass_done(&self, film: &Film<N>) -> ControlFlow<()> {
         let seconds = self.seconds();
+        // a shard knows nothing of the whole
+        if film.spp() == 0 {
+            return ControlFlow::Continue(());
+        }
         let mut rows = self.rows.lock().unwrap_or_else(PoisonError::into_inner);
         match rows.0.push(seconds, film.spp(), &film.estimate(CONFIDENCE)) {
             Ok(()) => ControlFlow::Continue(()),

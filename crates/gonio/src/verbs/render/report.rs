@@ -1,6 +1,7 @@
 //! What a render says of itself.
 
-use super::{Render, Traced};
+use super::trace::Aimed;
+use super::{Render, Traced, strategy};
 use crate::output::say;
 use scene_io::BuiltScene;
 use scene_io::rows::{CONFIDENCE, Row};
@@ -16,6 +17,30 @@ struct RowJson {
     spp: u32,
     rel_rmse: f64,
     rel_rmse_ci: [f64; 2],
+}
+
+/// What `--target-error` came to.
+#[derive(Serialize)]
+struct TargetJson {
+    rel_rmse: f64,
+    confidence: f64,
+    reached: bool,
+    bound: f64,
+    rounds: u32,
+    pilot_seconds: f64,
+}
+
+impl From<&Aimed> for TargetJson {
+    fn from(aimed: &Aimed) -> Self {
+        Self {
+            rel_rmse: aimed.target.rel_rmse,
+            confidence: aimed.target.confidence,
+            reached: aimed.choice.reached,
+            bound: aimed.choice.bound,
+            rounds: aimed.choice.rounds,
+            pilot_seconds: aimed.seconds,
+        }
+    }
 }
 
 impl From<&Row> for RowJson {
@@ -45,6 +70,9 @@ pub(super) struct Report {
     rmse_ci: Option<[f64; 2]>,
     rel_rmse: Option<f64>,
     rel_rmse_ci: Option<[f64; 2]>,
+    light_strategy: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    target: Option<TargetJson>,
     rows: Vec<RowJson>,
     left_out: Vec<String>,
     interrupted: bool,
@@ -59,16 +87,10 @@ impl Report {
     ) -> Self {
         let estimate = traced.film.estimate(CONFIDENCE);
         let known = estimate.rel_rmse.is_finite();
-        let main = built.materials.first();
         Self {
-            written: [&args.output, &args.output.with_extension("png")]
-                .into_iter()
-                .chain(&args.error_map)
-                .chain(&args.rows)
-                .cloned()
-                .collect(),
+            written: written(built, args),
             scene: built.file.path.display().to_string(),
-            sampler: main.map_or_else(|| "none".into(), |m| m.sampler.name.to_string()),
+            sampler: sampler(built),
             spectrum: "rgb",
             spp: traced.film.samples() / u64::from(built.size.0 * built.size.1).max(1),
             seconds: traced.seconds,
@@ -79,6 +101,8 @@ impl Report {
             rmse_ci: known.then_some(estimate.rmse_ci),
             rel_rmse: known.then_some(estimate.rel_rmse),
             rel_rmse_ci: known.then_some(estimate.rel_rmse_ci),
+            light_strategy: strategy::name(built.settings.strategy),
+            target: traced.aimed.as_ref().map(TargetJson::from),
             rows: traced.rows.iter().map(RowJson::from).collect(),
             left_out: left_out(built),
             interrupted: traced.interrupted,
@@ -100,6 +124,9 @@ impl Report {
             self.build_seconds,
             self.paths_per_second / 1e6
         )?;
+        if let Some(target) = &self.target {
+            target.print(out)?;
+        }
         self.print_error(out)?;
         for path in &self.written {
             writeln!(out, "wrote {}", path.display())?;
@@ -112,6 +139,22 @@ impl Report {
             )?;
         }
         Ok(())
+    }
+}
+
+impl TargetJson {
+    fn print(&self, out: &mut String) -> fmt::Result {
+        let percent = |x: f64| 100.0 * x;
+        writeln!(
+            out,
+            "target {:.3} % {}: with {:.3} % confidence at most {:.3} %, by a pilot of {} rounds in {:.2} s",
+            percent(self.rel_rmse),
+            if self.reached { "met" } else { "not met" },
+            percent(self.confidence),
+            percent(self.bound),
+            self.rounds,
+            self.pilot_seconds
+        )
     }
 }
 
@@ -132,6 +175,22 @@ impl Report {
             rmse_ci[1]
         )
     }
+}
+
+/// Name of the sampler of the main material.
+pub(super) fn sampler(built: &BuiltScene) -> String {
+    let main = built.materials.first();
+    main.map_or_else(|| "none".into(), |m| m.sampler.name.to_string())
+}
+
+fn written(built: &BuiltScene, args: &Render) -> Vec<PathBuf> {
+    let png = args.output.with_extension("png");
+    let mut all: Vec<_> = args.checkpoint.iter().collect();
+    if built.settings.shard.is_none() {
+        all.extend([&args.output, &png]);
+        all.extend(args.error_map.iter().chain(&args.rows));
+    }
+    all.into_iter().cloned().collect()
 }
 
 /// What the scene and its files do not use, and what the tracer then does without.
