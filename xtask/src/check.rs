@@ -1,6 +1,6 @@
 //! `cargo xtask`: what must pass before a push.
 
-use crate::{process, test, tidy};
+use crate::{codegen, process, test, tidy};
 use anyhow::Result;
 
 pub(crate) fn run() -> Result<()> {
@@ -17,6 +17,7 @@ pub(crate) fn run() -> Result<()> {
         ],
     )?;
     tidy::run()?;
+    codegen::run(&["--check".into()])?;
     if process::has_cargo_tool("deny") {
         process::run("cargo", &["deny", "check", "bans", "licenses", "sources"])?;
     } else {

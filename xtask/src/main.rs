@@ -11,6 +11,7 @@
 )]
 
 mod check;
+mod codegen;
 mod fixtures;
 mod interpolation;
 mod ngan;
@@ -28,6 +29,7 @@ cargo xtask               the pre-push check: fmt, clippy, tests, doc tests, tid
 cargo xtask test          the tests; --slow: the slow statistics and golden renders instead
 cargo xtask tidy          the repository's own rules
 cargo xtask fixtures      make data-fixtures/ again; --check: compare only
+cargo xtask codegen       make the generated tables again; --check: compare only
 cargo xtask interpolation cross-validate the interpolants on Cornell files
 cargo xtask ngan DIR     our fits against the published ones, on a folder of MERL files
 cargo xtask render-all    all scenes their data allow, with a contact sheet; see --help
@@ -51,6 +53,7 @@ fn run(args: &[String]) -> Result<()> {
         Some("test") => test::run(rest),
         Some("tidy") => tidy::run(),
         Some("fixtures") => fixtures::run(rest),
+        Some("codegen") => codegen::run(rest),
         Some("interpolation") => interpolation::run(rest),
         Some("ngan") => ngan::run(rest),
         Some("render-all") => render_all::run(rest),

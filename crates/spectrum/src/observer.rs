@@ -1,6 +1,7 @@
 //! The CIE standard observers.
 
 use crate::generated::{cie_1931_2deg, cie_1964_10deg};
+use crate::{Outside, Spectrum};
 
 /// Colour-matching functions: what each wavelength adds to X, Y and Z.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,7 +10,11 @@ pub struct Observer {
 }
 
 /// First wavelength of the tables, nm.
-const FIRST_NM: u16 = 360;
+const FIRST_NM: u16 = cie_1931_2deg::FIRST_NM;
+const _: () = assert!(
+    FIRST_NM == cie_1964_10deg::FIRST_NM,
+    "both tables begin alike"
+);
 
 impl Observer {
     /// CIE 1931, 2 degree field [Cie15]: what gonio means by XYZ.
@@ -34,6 +39,22 @@ impl Observer {
         let t = x - k as f64;
         let (a, b) = (self.table[k], self.table[k + 1]);
         std::array::from_fn(|c| a[c] * (1.0 - t) + b[c] * t)
+    }
+
+    /// x, y and z as spectra, nothing outside of 360 to 830 nm.
+    #[must_use]
+    pub fn spectra(&self) -> [Spectrum; 3] {
+        std::array::from_fn(|c| {
+            let values = self.table.iter().map(|row| row[c]).collect();
+            Spectrum::regular(f64::from(FIRST_NM), 1.0, values, Outside::Zero)
+        })
+    }
+
+    /// What it sees, nm: no light outside of it counts.
+    #[must_use]
+    pub fn range_nm(&self) -> [f64; 2] {
+        let first = f64::from(FIRST_NM);
+        [first, first + (self.table.len() - 1) as f64]
     }
 
     /// The table itself: wavelength in nm, and x, y, z.

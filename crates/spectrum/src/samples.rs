@@ -25,6 +25,13 @@ impl<const N: usize> Samples<N> {
         Self([value; N])
     }
 
+    /// From channels in double precision; `None` unless there are `N` of them.
+    #[must_use]
+    pub fn from_channels(channels: &[f64]) -> Option<Self> {
+        let channels: &[f64; N] = channels.try_into().ok()?;
+        Some(Self(channels.map(|v| v as f32)))
+    }
+
     /// Applies `f` to every sample.
     #[inline]
     #[must_use]

@@ -1,6 +1,7 @@
 //! Every basis agrees on white, and on colours that can be told in several.
 
-use spectrum::{Basis, LUMINANCE_SRGB, RgbSpace};
+use spectrum::{Basis, Bins, LUMINANCE_SRGB, RgbSpace, Viewing};
+use testkit::assert_close;
 
 fn bases() -> Vec<Basis> {
     let cornell = |n: u16, step: f64| (0..n).map(|k| 400.0 + step * f64::from(k)).collect();
@@ -12,6 +13,9 @@ fn bases() -> Vec<Basis> {
         Basis::Bands(cornell(31, 10.0)),
         Basis::Bands(cornell(61, 5.0)),
         Basis::Bands(vec![550.0]),
+        Basis::Bins(Bins::visible(8)),
+        Basis::Bins(Bins::visible(45)),
+        Basis::Bins(Bins::uniform(2, [400.0, 505.0]).expect("ascending")),
     ]
 }
 
@@ -19,11 +23,7 @@ fn bases() -> Vec<Basis> {
 fn white(basis: &Basis) -> Vec<f64> {
     match basis {
         Basis::Rgb(space) => vec![space.white_level; 3],
-        Basis::Xyz => {
-            let d65 =
-                spectrum::white_xyz(&spectrum::Illuminant::D65, &spectrum::Observer::CIE_1931);
-            d65.to_vec()
-        }
+        Basis::Xyz => Viewing::standard().white().to_vec(),
         _ => vec![1.0; basis.len()],
     }
 }
@@ -83,6 +83,76 @@ fn a_saturated_red_is_out_of_gamut_and_stays() {
         .collect();
     let [r, g, b] = convert(&Basis::Bands(bands), &red);
     assert!(r > 0.05 && g < 0.0 && b.abs() < 0.01, "{r} {g} {b}");
+}
+
+/// The channels of `target` for channels of `from`.
+fn to(from: &Basis, target: &Basis, channels: &[f64]) -> Vec<f64> {
+    let rows = from.rows_to(target);
+    assert_eq!(rows.len(), from.len(), "a row for each channel");
+    (0..target.len())
+        .map(|c| rows.iter().zip(channels).map(|(row, v)| row[c] * v).sum())
+        .collect()
+}
+
+#[test]
+fn white_stays_white_from_any_basis_to_any() {
+    for a in bases() {
+        for b in bases() {
+            let found = to(&a, &b, &white(&a));
+            for (f, e) in found.iter().zip(white(&b)) {
+                // nine digits of the linear basis
+                assert_close(*f, e, 1e-8, &format!("{a:?} to {b:?}"));
+            }
+        }
+    }
+}
+
+#[test]
+fn colours_survive_the_way_through_bands_and_back() {
+    let colours = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-0.1, 0.4, 3.0]];
+    for space in [
+        Basis::Rgb(RgbSpace::srgb()),
+        Basis::Rgb(RgbSpace::rec2020()),
+        Basis::Xyz,
+    ] {
+        // the basis' own bands lose nothing
+        let bands = Basis::Bands((0..81).map(|k| 380.0 + 5.0 * f64::from(k)).collect());
+        for colour in colours {
+            let back = to(&bands, &space, &to(&space, &bands, &colour));
+            for c in 0..3 {
+                // nine digits of the basis, times 3
+                assert_close(back[c], colour[c], 1e-8, "round trip");
+            }
+        }
+    }
+}
+
+#[test]
+fn bands_become_their_means() {
+    let bands = Basis::Bands(vec![400.0, 500.0, 600.0]);
+    let bins = Basis::Bins(Bins::new(vec![380.0, 400.0, 450.0, 600.0]).unwrap());
+    let means = to(&bands, &bins, &[0.2, 0.8, 0.4]);
+    // flat, a quarter of the way up on average, 0.5..0.8..0.4 by trapezia
+    for (found, expected) in means
+        .iter()
+        .zip([0.2, 0.35, (50.0 * 0.65 + 100.0 * 0.6) / 150.0])
+    {
+        assert_close(*found, expected, 1e-14, "mean");
+    }
+    let at = bands.at(425.0);
+    for (found, expected) in at.iter().zip([0.75, 0.25, 0.0]) {
+        assert_close(*found, expected, 1e-15, "hat");
+    }
+}
+
+#[test]
+fn names_tell_wavelengths() {
+    assert_eq!(Basis::Bins(Bins::visible(8)).names()[0], "380-422.5nm");
+    assert_eq!(
+        Basis::Bins(Bins::visible(45)).names()[1],
+        "387.556-395.111nm"
+    );
+    assert_eq!(Basis::Bands(vec![412.5]).names(), ["412.5nm"]);
 }
 
 #[test]
