@@ -36,6 +36,9 @@ impl Target {
     /// `pilot(spp, confidence)` is the estimate of a pilot with `spp` samples a pixel. Its random numbers must be
     /// independent of those of the picture that is published: then the number it chose is, too, and that picture is
     /// unbiased. Round k = 0, 1, ... may err with probability alpha / 2^(k + 1), all together with alpha.
+    ///
+    /// # Errors
+    /// Those of the pilot.
     pub fn choose<const N: usize, E>(
         &self,
         first: u32,

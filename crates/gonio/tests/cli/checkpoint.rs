@@ -1,11 +1,15 @@
 //! Killed, shared and stopped renders end at the same bits.
 
-use crate::program::Bench;
+use crate::program::{Bench, repository};
 use scene_io::image::read_exr;
 use std::process::Stdio;
 use std::time::Duration;
 
-const SCENE: &str = "render --size 40x24 --seed 5 --light-strategy mis";
+/// A scene that is built in no time.
+fn scene() -> String {
+    let file = repository("scenes/closed-form/scene.ron");
+    format!("render {file} --size 40x24 --seed 5 --light-strategy mis")
+}
 
 /// Pixels and variances; not the metadata, which hold the seconds.
 fn bits(bench: &Bench, name: &str) -> Vec<u32> {
@@ -17,11 +21,11 @@ fn bits(bench: &Bench, name: &str) -> Vec<u32> {
 
 #[test]
 fn a_render_that_goes_on_is_the_render_that_never_stopped() {
-    let bench = Bench::new();
-    bench.text(&format!("{SCENE} --spp 64 --threads 1 -o whole.exr"));
-    bench.text(&format!("{SCENE} --spp 24 --checkpoint film -o part.exr"));
+    let (bench, scene) = (Bench::new(), scene());
+    bench.text(&format!("{scene} --spp 64 --threads 1 -o whole.exr"));
+    bench.text(&format!("{scene} --spp 24 --checkpoint film -o part.exr"));
     let run = bench.run(&format!(
-        "{SCENE} --spp 64 --checkpoint film --threads 2 -o resumed.exr"
+        "{scene} --spp 64 --checkpoint film --threads 2 -o resumed.exr"
     ));
     assert_eq!(run.code, 0, "{}", run.err);
     assert!(
@@ -41,12 +45,12 @@ fn a_render_that_goes_on_is_the_render_that_never_stopped() {
 
 #[test]
 fn shards_merge_to_the_same_bits() {
-    let bench = Bench::new();
-    bench.text(&format!("{SCENE} --spp 32 -o whole.exr"));
+    let (bench, scene) = (Bench::new(), scene());
+    bench.text(&format!("{scene} --spp 32 -o whole.exr"));
     for k in 1..=3 {
         let threads = 1 + k % 2;
         bench.text(&format!(
-            "{SCENE} --spp 32 --shard {k}/3 --checkpoint s{k} --threads {threads}"
+            "{scene} --spp 32 --shard {k}/3 --checkpoint s{k} --threads {threads}"
         ));
     }
     let said = bench.json("merge s3 s1 s2 -o merged.exr");
@@ -60,12 +64,12 @@ fn shards_merge_to_the_same_bits() {
     let [a, b] = ["whole.png", "merged.png"].map(|name| bench.read(name));
     assert!(a == b, "another PNG");
 
-    bench.text(&format!("{SCENE} --spp 16 --shard 2/3 --checkpoint short"));
+    bench.text(&format!("{scene} --spp 16 --shard 2/3 --checkpoint short"));
     bench.text(
-        &format!("{SCENE} --spp 32 --seed 6 --shard 2/3 --checkpoint foreign")
+        &format!("{scene} --spp 32 --seed 6 --shard 2/3 --checkpoint foreign")
             .replace("--seed 5 ", ""),
     );
-    bench.text(&format!("{SCENE} --spp 8 --checkpoint film -o x.exr"));
+    bench.text(&format!("{scene} --spp 8 --checkpoint film -o x.exr"));
     for (shards, expected) in [
         ("s1 s3", "found none for 2/3"),
         ("s1 s2 s2", "found shard 2/3 again after s2"),
@@ -90,8 +94,8 @@ fn shards_merge_to_the_same_bits() {
 
 #[test]
 fn checkpoints_that_do_not_fit_are_refused_in_one_line() {
-    let bench = Bench::new();
-    bench.text(&format!("{SCENE} --spp 16 --checkpoint film -o a.exr"));
+    let (bench, scene) = (Bench::new(), scene());
+    bench.text(&format!("{scene} --spp 16 --checkpoint film -o a.exr"));
     let whole = bench.read("film");
     bench.write("cut", &whole[..whole.len() / 2]);
     let mut flipped = whole.clone();
@@ -100,27 +104,27 @@ fn checkpoints_that_do_not_fit_are_refused_in_one_line() {
     bench.write("text", "no checkpoint");
     for (line, expected) in [
         (
-            format!("{SCENE} --spp 16 --checkpoint cut"),
+            format!("{scene} --spp 16 --checkpoint cut"),
             "cut: not a checkpoint of this render: expected",
         ),
         (
-            format!("{SCENE} --spp 16 --checkpoint flipped"),
+            format!("{scene} --spp 16 --checkpoint flipped"),
             "flipped: not a checkpoint of this render: the checksum",
         ),
         (
-            format!("{SCENE} --spp 16 --checkpoint text"),
+            format!("{scene} --spp 16 --checkpoint text"),
             "text: not a checkpoint",
         ),
         (
-            format!("{SCENE} --spp 8 --checkpoint film"),
+            format!("{scene} --spp 8 --checkpoint film"),
             "film: expected at most 8 samples a pixel, found 16",
         ),
         (
-            format!("{SCENE} --spp 16 --sampler cosine --checkpoint film"),
+            format!("{scene} --spp 16 --sampler cosine --checkpoint film"),
             "film: not a checkpoint of this render: belongs to other input",
         ),
         (
-            format!("{SCENE} --spp 16 --checkpoint none/film"),
+            format!("{scene} --spp 16 --checkpoint none/film"),
             "none/film: cannot write",
         ),
     ] {
@@ -139,10 +143,10 @@ fn checkpoints_that_do_not_fit_are_refused_in_one_line() {
 #[cfg(unix)]
 #[test]
 fn ctrl_c_keeps_the_checkpoint() {
-    let bench = Bench::new();
+    let (bench, scene) = (Bench::new(), scene());
     let mut child = bench
         .command(&format!(
-            "{SCENE} --spp 1000000 --threads 1 --checkpoint film --checkpoint-every 0.1 -o a.exr"
+            "{scene} --spp 1000000 --threads 1 --checkpoint film --checkpoint-every 0.1 -o a.exr"
         ))
         .stderr(Stdio::null())
         .stdout(Stdio::null())
@@ -169,8 +173,8 @@ fn ctrl_c_keeps_the_checkpoint() {
 #[cfg(unix)]
 #[test]
 fn slow_ten_kills_lose_nothing() {
-    let bench = Bench::new();
-    let render = format!("{SCENE} --spp 4096");
+    let (bench, scene) = (Bench::new(), scene());
+    let render = format!("{scene} --spp 4096");
     let start = std::time::Instant::now();
     bench.text(&format!("{render} --threads 1 -o whole.exr"));
     let whole = start.elapsed().as_secs_f64();

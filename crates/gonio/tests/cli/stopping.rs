@@ -1,21 +1,25 @@
 //! `--target-error` and `--time`.
 
-use crate::program::Bench;
+use crate::program::{Bench, repository};
 use scene_io::image::read_exr;
 
 #[test]
 fn a_target_chooses_samples_and_nothing_else() {
     let bench = Bench::new();
-    let said = bench.json("render --size 32x20 --target-error 10% --confidence 90% -o a.exr");
+    let scene = repository("scenes/closed-form/scene.ron");
+    let render = format!("render {scene} --size 32x20");
+    let said = bench.json(&format!(
+        "{render} --target-error 1% --confidence 90% -o a.exr"
+    ));
     let target = &said["target"];
     assert_eq!(target["reached"], true, "{said}");
-    assert!(target["bound"].as_f64().unwrap() <= 0.1, "{said}");
+    assert!(target["bound"].as_f64().unwrap() <= 0.01, "{said}");
     assert!(
         (target["confidence"].as_f64().unwrap() - 0.9).abs() < 1e-12,
         "{said}"
     );
     let spp = said["spp"].as_u64().unwrap();
-    bench.text(&format!("render --size 32x20 --spp {spp} -o b.exr"));
+    bench.text(&format!("{render} --spp {spp} -o b.exr"));
     let [a, b] = ["a.exr", "b.exr"].map(|name| read_exr(&bench.path(name)).unwrap());
     assert!(a.pixels == b.pixels, "not the picture of --spp {spp}");
 }

@@ -98,7 +98,7 @@ struct Coverage {
 const RENDERS: u64 = 400;
 
 fn coverage(scene: &Scene<1>, strategy: Strategy) -> Coverage {
-    let render = |spp, seed| {
+    let make = |spp, seed| {
         let mut film = Film::new(8, 8, 8);
         let settings = Settings {
             spp,
@@ -106,16 +106,16 @@ fn coverage(scene: &Scene<1>, strategy: Strategy) -> Coverage {
             strategy,
             ..Settings::default()
         };
-        tracer::render(scene, &settings, &mut film, &()).unwrap();
+        render(scene, &settings, &mut film, &()).unwrap();
         film
     };
-    let reference = render(1 << 15, 1).estimate(0.95);
+    let reference = make(1 << 15, 1).estimate(0.95);
     let truth = &reference.mean;
     let own: f64 = reference.variance.iter().map(|[v]| v).sum();
     let square: f64 = truth.iter().map(|[v]| v * v).sum::<f64>() - own;
     let (mut inside, mut counted, mut squares) = (0.0, 0.0, 0.0);
     let estimates: Vec<_> = (0..RENDERS)
-        .map(|seed| render(256, 100 + seed).estimate(0.95))
+        .map(|seed| make(256, 100 + seed).estimate(0.95))
         .collect();
     for estimate in &estimates {
         for (p, ([value], [exact])) in estimate.mean.iter().zip(truth).enumerate() {
@@ -138,6 +138,7 @@ fn coverage(scene: &Scene<1>, strategy: Strategy) -> Coverage {
 }
 
 #[test]
+#[expect(clippy::print_stdout, reason = "the measured shares are the point")]
 fn slow_intervals_cover_the_truth_as_often_as_they_say() {
     let mut all = 0.0;
     let scenes = [

@@ -7,7 +7,7 @@ use tracer::{Film, Target};
 const SIDE: u32 = 2;
 const REPLICATES: u32 = 8;
 /// A sample is 1, and with this probability 1 + RARE: light that is seldom met.
-const CHANCE: f64 = 0.1;
+const CHANCE: f64 = 0.02;
 const RARE: f64 = 10.0;
 
 /// Films of compound Poisson sums: what rendering a rare light gives, without rendering.
@@ -55,8 +55,8 @@ fn mean(film: &Film<1>) -> f64 {
 fn outcome(mut run: impl FnMut(&mut Rng, &Target) -> (f64, u32)) -> (f64, f64) {
     const RUNS: u32 = 4000;
     let target = Target {
-        // just below the error of 128 samples: 0.1398
-        rel_rmse: 0.135,
+        // just below the error of 128 samples, 0.104
+        rel_rmse: 0.1,
         confidence: 0.95,
         most: 1 << 16,
     };
@@ -80,7 +80,7 @@ fn outcome(mut run: impl FnMut(&mut Rng, &Target) -> (f64, u32)) -> (f64, f64) {
 fn the_rule_keeps_mean_and_promise() {
     let (z, broken) = outcome(|rng, target| {
         let mut pilot = Simulated::new();
-        let choice = target.choose(32, |spp, confidence| {
+        let choice = target.choose(64, |spp, confidence| {
             Ok::<_, Infallible>(pilot.film(spp, rng).estimate(confidence))
         });
         let Ok(choice) = choice;
@@ -96,7 +96,7 @@ fn the_rule_keeps_mean_and_promise() {
 fn a_rule_that_looks_at_its_own_picture_fails_both() {
     let (z, broken) = outcome(|rng, target| {
         let mut film = Simulated::new();
-        let mut spp = 32;
+        let mut spp = 64;
         loop {
             let now = film.film(spp, rng);
             if now.estimate(target.confidence).rel_rmse <= target.rel_rmse {
@@ -105,6 +105,6 @@ fn a_rule_that_looks_at_its_own_picture_fails_both() {
             spp *= 2;
         }
     });
-    assert!(z < -10.0, "{z}: the bias this test is about");
-    assert!(broken > 0.05, "{broken}: the promise it breaks");
+    assert!(z < -6.0, "{z}: the bias this test is about");
+    assert!(broken > 0.3, "{broken}: the promise it breaks");
 }
