@@ -9,17 +9,30 @@ use crate::half::{Half, from_tan2, reflect};
 use crate::lobe::{SpecularLobe, share};
 use crate::registry::{Built, Laws, ModelInfo, Parameter, Values};
 
-/// Schlick's Fresnel term in the lobe; the base loses what the lobe takes.
+/// What lies under the lobe.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AshikhminBase {
+    /// The paper's base, which loses what the lobe takes.
+    Coupled,
+    /// Lambert, which does not know the lobe: how [Ngan2005] fitted the model.
+    Lambert,
+}
+
+/// A lobe with Schlick's Fresnel term over a base.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AshikhminShirley<const N: usize> {
     /// Exponent along x, [0, 1e6].
     pub exponent_x: f64,
     /// Exponent along y, [0, 1e6].
     pub exponent_y: f64,
-    /// Reflectance of the lobe at normal incidence, per channel.
+    /// Reflectance of the facets at normal incidence, per channel.
+    pub f0: [f64; N],
+    /// Weight of the lobe per channel; 1 in the paper.
     pub specular: [f64; N],
     /// Reflectance of the base per channel, before the lobe takes its part.
     pub diffuse: [f64; N],
+    /// The base.
+    pub base: AshikhminBase,
 }
 
 pub(crate) const INFO: ModelInfo = ModelInfo {
@@ -28,15 +41,9 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
     formula: "sqrt((nx+1)(ny+1))/(8 pi) hz^(nx cos^2 p + ny sin^2 p) F(h.wi) / ((h.wi) max(ci, co)) + 28 kd/(23 pi) (1-ks) (1-(1-ci/2)^5) (1-(1-co/2)^5), F = ks + (1-ks)(1-h.wi)^5",
     citation: "AshikhminShirley2000",
     parameters: &[
-        Parameter::exponent("n", "exponent", 100.0),
-        Parameter {
-            range: (0.0, 1e6),
-            ..Parameter::same("nx", "exponent along x", "n")
-        },
-        Parameter {
-            range: (0.0, 1e6),
-            ..Parameter::same("ny", "exponent along y", "n")
-        },
+        EXPONENT,
+        EXPONENT_X,
+        EXPONENT_Y,
         Parameter::albedo("ks", "reflectance of the lobe at normal incidence", 0.05),
         Parameter::base("kd", "reflectance of the base", 0.5),
     ],
@@ -52,12 +59,56 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
     ],
 };
 
+pub(crate) const LOBE: ModelInfo = ModelInfo {
+    name: "ashikhmin-lobe",
+    title: "the lobe of Ashikhmin and Shirley over Lambert, both with a weight, as Ngan fitted it",
+    formula: "kd/pi + ks sqrt((nx+1)(ny+1))/(8 pi) hz^(nx cos^2 p + ny sin^2 p) F(h.wi) / ((h.wi) max(ci, co)), F = f0 + (1-f0)(1-h.wi)^5",
+    citation: "Ngan2005",
+    parameters: &[
+        EXPONENT,
+        EXPONENT_X,
+        EXPONENT_Y,
+        Parameter::albedo("f0", "reflectance of the facets at normal incidence", 0.05),
+        Parameter::weight("ks", "weight of the lobe", 1.0),
+        Parameter::base("kd", "albedo of the Lambert lobe", 0.0),
+    ],
+    examples: &[
+        "n=100,f0=0.3,ks=0.5,kd=0.5/0.3/0.1",
+        "nx=10,ny=1000,f0=1,ks=0.5,kd=0.5",
+        "n=3000,f0=0.05",
+    ],
+    ..INFO
+};
+
+const EXPONENT: Parameter = Parameter::exponent("n", "exponent", 100.0);
+const EXPONENT_X: Parameter = Parameter {
+    range: (0.0, 1e6),
+    ..Parameter::same("nx", "exponent along x", "n")
+};
+const EXPONENT_Y: Parameter = Parameter {
+    range: (0.0, 1e6),
+    ..Parameter::same("ny", "exponent along y", "n")
+};
+
 pub(crate) fn build<const N: usize>(values: &Values) -> Built<N> {
     Built::new(AshikhminShirley {
         exponent_x: values.scalar("nx"),
         exponent_y: values.scalar("ny"),
+        f0: values.channels("ks"),
+        specular: [1.0; N],
+        diffuse: values.channels("kd"),
+        base: AshikhminBase::Coupled,
+    })
+}
+
+pub(crate) fn build_lobe<const N: usize>(values: &Values) -> Built<N> {
+    Built::new(AshikhminShirley {
+        exponent_x: values.scalar("nx"),
+        exponent_y: values.scalar("ny"),
+        f0: values.channels("f0"),
         specular: values.channels("ks"),
         diffuse: values.channels("kd"),
+        base: AshikhminBase::Lambert,
     })
 }
 
@@ -92,7 +143,10 @@ impl<const N: usize> AshikhminShirley<N> {
     /// What the base reflects before the angular factors.
     #[inline]
     fn base_albedo(&self) -> [f64; N] {
-        std::array::from_fn(|c| self.diffuse[c] * (1.0 - self.specular[c]))
+        match self.base {
+            AshikhminBase::Coupled => std::array::from_fn(|c| self.diffuse[c] * (1.0 - self.f0[c])),
+            AshikhminBase::Lambert => self.diffuse,
+        }
     }
 }
 
@@ -104,9 +158,12 @@ impl<const N: usize> Brdf<N> for AshikhminShirley<N> {
         };
         let cos_d = half.cos_d();
         let lobe = 0.25 * self.half_density(&half) / (cos_d * wi.z.max(wo.z));
-        let under = 28.0 / 23.0 * FRAC_1_PI * base(wi.z) * base(wo.z);
-        let (f, d) = (schlick(&self.specular, cos_d), self.base_albedo());
-        std::array::from_fn(|c| f[c] * lobe + d[c] * under)
+        let under = match self.base {
+            AshikhminBase::Coupled => 28.0 / 23.0 * FRAC_1_PI * base(wi.z) * base(wo.z),
+            AshikhminBase::Lambert => FRAC_1_PI,
+        };
+        let (f, d) = (schlick(&self.f0, cos_d), self.base_albedo());
+        std::array::from_fn(|c| self.specular[c] * f[c] * lobe + d[c] * under)
     }
 
     fn symmetry(&self) -> Symmetry {
@@ -120,7 +177,9 @@ impl<const N: usize> Brdf<N> for AshikhminShirley<N> {
 impl<const N: usize> SpecularLobe for AshikhminShirley<N> {
     #[inline]
     fn probability(&self, wo: DVec3) -> f64 {
-        share(&schlick(&self.specular, wo.z.min(1.0)), &self.base_albedo())
+        let f = schlick(&self.f0, wo.z.min(1.0));
+        let weight: [f64; N] = std::array::from_fn(|c| self.specular[c] * f[c]);
+        share(&weight, &self.base_albedo())
     }
 
     #[inline]

@@ -1,22 +1,36 @@
-//! Cook-Torrance: Beckmann facets in V-shaped grooves [CookTorrance1982], [TorranceSparrow1967].
+//! Cook-Torrance, that is Torrance-Sparrow with Beckmann facets: in V-shaped grooves [CookTorrance1982],
+//! [TorranceSparrow1967], or masked after Smith [Smith1967].
 //!
 //! The 1982 paper divides by pi and normalises D without it, a factor 4 too bright; this is the
 //! consistent form [Walter2007]. Sampled by the visible normals of V-cavities [HeitzDEon2014].
 
 use brdf::{Brdf, DirectionSample, DirectionSampler, Symmetry};
 use glam::{DVec2, DVec3};
-use std::f64::consts::{FRAC_1_PI, PI};
+use std::f64::consts::FRAC_1_PI;
 
+use crate::beckmann::{Cavities, grooves};
 use crate::fresnel::Fresnel;
-use crate::half::{Half, from_tan2, reflect};
+use crate::half::Half;
 use crate::lobe::{SpecularLobe, share};
 use crate::registry::{Built, Laws, ModelInfo, Parameter, Values, microfacet};
+use crate::smith::Smith;
 
-/// f = kd/pi + ks F D G / (4 ci co), D Beckmann, G = min(1, 2 hz ci / h.wo, 2 hz co / h.wo).
+/// What facets hide of each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Masking {
+    /// V-shaped grooves as long as the surface [TorranceSparrow1967].
+    Grooves,
+    /// A random surface seen from each side in turn, G1(wi) G1(wo) [Smith1967], [Walter2007].
+    Smith,
+}
+
+/// f = kd/pi + ks F D G / (4 ci co), D Beckmann, G by [`Masking`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CookTorrance<const N: usize> {
     /// Root mean square slope times sqrt 2, [1e-4, 1].
     pub m: f64,
+    /// What the facets hide of each other.
+    pub masking: Masking,
     /// Reflectance of the facets.
     pub fresnel: Fresnel<N>,
     /// Weight of the lobe per channel, 1 for bare facets; at most 1 - `diffuse` keeps the energy.
@@ -27,7 +41,7 @@ pub struct CookTorrance<const N: usize> {
 
 pub(crate) const INFO: ModelInfo = ModelInfo {
     name: "cook-torrance",
-    title: "Beckmann microfacets in V-cavities",
+    title: "Torrance-Sparrow with Beckmann microfacets in V-cavities",
     formula: "kd/pi + ks F D G / (4 ci co), D = exp(-tan^2 d/m^2)/(pi m^2 cos^4 d), G = min(1, 2 hz ci/h.wo, 2 hz co/h.wo)",
     citation: "CookTorrance1982",
     parameters: &[
@@ -50,27 +64,47 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
     ],
 };
 
-pub(crate) fn build<const N: usize>(values: &Values) -> Built<N> {
+pub(crate) const SMITH: ModelInfo = ModelInfo {
+    name: "cook-torrance-smith",
+    title: "Beckmann microfacets with Smith masking, the short-wave limit of `he`",
+    formula: "kd/pi + ks F D G1(wi) G1(wo) / (4 ci co), D = exp(-tan^2 d/m^2)/(pi m^2 cos^4 d), G1 = 1/(1 + (exp(-q^2)/(sqrt(pi) q) - erfc(q))/2), q = 1/(m tan t)",
+    citation: "Walter2007",
+    ..INFO
+};
+
+fn build<const N: usize>(values: &Values, masking: Masking) -> Built<N> {
     Built::new(CookTorrance {
         m: values.scalar("m"),
+        masking,
         fresnel: microfacet::fresnel(values),
         specular: values.channels("ks"),
         diffuse: values.channels("kd"),
     })
 }
 
+pub(crate) fn build_grooves<const N: usize>(values: &Values) -> Built<N> {
+    build(values, Masking::Grooves)
+}
+
+pub(crate) fn build_smith<const N: usize>(values: &Values) -> Built<N> {
+    build(values, Masking::Smith)
+}
+
 impl<const N: usize> CookTorrance<N> {
-    /// Beckmann's distribution of normals D(h), 1/sr.
     #[inline]
-    fn ndf(&self, half: &Half) -> f64 {
-        let tan2 = half.tan2();
-        let e = (-tan2 / (self.m * self.m)).exp();
-        // at grazing half vectors tan^2 may overflow: the exponential has won long before
-        if e > 0.0 {
-            let sec2 = 1.0 + tan2;
-            e * sec2 * sec2 * FRAC_1_PI / (self.m * self.m)
-        } else {
-            0.0
+    const fn cavities(&self) -> Cavities {
+        Cavities { m: self.m }
+    }
+
+    /// G/(4 ci co).
+    #[inline]
+    fn masking(&self, half: &Half, wi: DVec3, wo: DVec3) -> f64 {
+        match self.masking {
+            Masking::Grooves => grooves(half, wi, wo),
+            Masking::Smith => {
+                let (i, o) = (Smith::new(wi, self.m), Smith::new(wo, self.m));
+                0.25 * i.g1_over_cos * o.g1_over_cos
+            }
         }
     }
 }
@@ -81,10 +115,13 @@ impl<const N: usize> Brdf<N> for CookTorrance<N> {
         let Some(half) = Half::new(wi, wo) else {
             return [0.0; N];
         };
-        // hz / (h.wo) = 2 H.z / |H|^2, merged with 1 / (4 ci co)
-        let groove = half.h.z / (half.len2 * wi.z.max(wo.z));
-        let open = 0.25 / (wi.z * wo.z);
-        let lobe = self.ndf(&half) * groove.min(open);
+        let d = self.cavities().ndf(&half);
+        // the tail, where the exponential is 0, needs no masking
+        let lobe = if d > 0.0 {
+            d * self.masking(&half, wi, wo)
+        } else {
+            0.0
+        };
         let f = self.fresnel.eval(half.cos_d());
         std::array::from_fn(|c| self.diffuse[c] * FRAC_1_PI + self.specular[c] * f[c] * lobe)
     }
@@ -102,32 +139,14 @@ impl<const N: usize> SpecularLobe for CookTorrance<N> {
         share(&weight, &self.diffuse)
     }
 
+    /// Facets visible in grooves serve both maskings: Smith's is never larger than twice as open.
     fn sample_lobe(&self, wo: DVec3, u: DVec2) -> DVec3 {
-        let tan2 = -self.m * self.m * (-u.x).ln_1p();
-        let sin_o = wo.x.hypot(wo.y);
-        let (cx, cy) = if sin_o > 0.0 {
-            (wo.x / sin_o, wo.y / sin_o)
-        } else {
-            (1.0, 0.0)
-        };
-        // azimuth from the viewer's; the sign from the half of the interval u.y is in
-        let s = 2.0 * u.y - 1.0;
-        let phi = visible_azimuth(tan2.sqrt() * sin_o / wo.z, s.abs());
-        let (sin_phi, cos_phi) = phi.copysign(s).sin_cos();
-        let h = from_tan2(
-            tan2,
-            cx * cos_phi - cy * sin_phi,
-            cy * cos_phi + cx * sin_phi,
-        );
-        reflect(wo, h)
+        self.cavities().sample(wo, u)
     }
 
     #[inline]
     fn lobe_pdf(&self, wi: DVec3, wo: DVec3) -> f64 {
-        // G1 D (h.wo) / co, over 4 (h.wo)
-        Half::new(wi, wo).map_or(0.0, |half| {
-            self.ndf(&half) * (half.h.z / half.len2).min(0.25 / wo.z)
-        })
+        Half::new(wi, wo).map_or(0.0, |half| self.cavities().pdf(&half, wo))
     }
 }
 
@@ -141,76 +160,5 @@ impl<const N: usize> DirectionSampler for CookTorrance<N> {
     #[inline]
     fn pdf(&self, wi: DVec3, wo: DVec3) -> f64 {
         self.mixture_pdf(wi, wo)
-    }
-}
-
-/// Azimuth in [0, pi] with density clamp(1 + t cos phi, 0, 2) / pi: which facets of a groove the viewer
-/// sees, t = tan(theta_o) tan(theta_h).
-///
-/// Where both flanks are visible the distribution is phi + t sin phi = y, Kepler's equation; Newton's
-/// method on it, kept inside its bracket.
-fn visible_azimuth(t: f64, u: f64) -> f64 {
-    let y = PI * u;
-    // for t > 1 one flank hides the other below phi_0 = acos(1/t), and the density is 2 there
-    let (phi_0, shift) = if t > 1.0 {
-        let phi_0 = (1.0 / t).acos();
-        (phi_0, ((t - 1.0) * (t + 1.0)).sqrt() - phi_0)
-    } else {
-        (0.0, 0.0)
-    };
-    if y < 2.0 * phi_0 {
-        return 0.5 * y;
-    }
-    let target = y + shift;
-    let (mut lo, mut hi) = (phi_0, PI - phi_0);
-    let mut phi = (phi_0 + (y - 2.0 * phi_0) / (1.0 + t.min(1.0))).clamp(lo, hi);
-    for _ in 0..60 {
-        let (sin, cos) = phi.sin_cos();
-        let error = phi + t * sin - target;
-        if error.abs() <= 4.0 * f64::EPSILON * (target + t) {
-            break;
-        }
-        if error > 0.0 {
-            hi = phi;
-        } else {
-            lo = phi;
-        }
-        let step = phi - error / (1.0 + t * cos);
-        phi = if step > lo && step < hi {
-            step
-        } else {
-            0.5 * (lo + hi)
-        };
-    }
-    phi
-}
-
-#[cfg(test)]
-mod tests {
-    use super::visible_azimuth;
-    use std::f64::consts::PI;
-
-    #[test]
-    fn azimuth_inverts_its_distribution() {
-        for t in [0.0, 1e-9, 0.3, 1.0 - 1e-12, 1.0, 1.5, 40.0, 1e6] {
-            for k in 0..=200 {
-                let u = f64::from(k) / 200.0;
-                let phi = visible_azimuth(t, u);
-                let phi_0 = if t > 1.0 { (1.0_f64 / t).acos() } else { 0.0 };
-                let cdf = if phi < phi_0 {
-                    2.0 * phi
-                } else if t > 1.0 {
-                    2.0 * phi_0 + phi - phi_0 + t * (phi.sin() - phi_0.sin())
-                } else {
-                    phi + t * phi.sin()
-                };
-                // rounding of t sin phi
-                assert!(
-                    (cdf / PI - u).abs() < 1e-14 * (1.0 + t),
-                    "t {t} u {u} phi {phi} cdf {}",
-                    cdf / PI
-                );
-            }
-        }
     }
 }

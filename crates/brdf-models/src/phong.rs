@@ -54,6 +54,7 @@ pub(crate) const CLASSIC: ModelInfo = ModelInfo {
         reciprocal: false,
         conserves_energy: false,
         sampler_complete: false,
+        ..Laws::KEPT
     },
     examples: EXAMPLES,
 };

@@ -18,11 +18,17 @@ pub use parse::{parse_model, parse_model_n};
 ///
 /// A law that is not kept is broken on purpose, because the published model breaks it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each law is kept or broken, independent of the others"
+)]
 pub struct Laws {
     /// f(wi, wo) = f(wo, wi).
     pub reciprocal: bool,
     /// The directional albedo stays at or below 1 as long as the weights add up to at most 1.
     pub conserves_energy: bool,
+    /// f is nowhere negative.
+    pub non_negative: bool,
     /// The sampler's density integrates to 1; otherwise to less, the rest being directions below the horizon.
     pub sampler_complete: bool,
 }
@@ -32,6 +38,7 @@ impl Laws {
     pub const KEPT: Self = Self {
         reciprocal: true,
         conserves_energy: true,
+        non_negative: true,
         sampler_complete: true,
     };
 }
@@ -100,9 +107,18 @@ models! {
     ward::CHEAP => build_cheap,
     ward::DUER => build_duer,
     ward::BOUNDED => build_bounded,
-    cook_torrance::INFO => build,
+    cook_torrance::INFO => build_grooves,
+    cook_torrance::SMITH => build_smith,
     ggx::INFO => build,
     oren_nayar::INFO => build,
     eon::INFO => build,
     ashikhmin_shirley::INFO => build,
+    ashikhmin_shirley::LOBE => build_lobe,
+    he::INFO => build,
+    sgd::INFO => build,
+    abc::INFO => build,
+    koenderink::INFO => build,
+    abg::INFO => build,
+    harvey_shack::INFO => build,
+    k_correlation::INFO => build,
 }

@@ -1,5 +1,6 @@
 //! The command line as typed: verbs, flags, help. Nothing here does work.
 
+use crate::verbs::converge::Converge;
 use crate::verbs::merge::Merge;
 use crate::verbs::render::Render;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -37,6 +38,7 @@ pub(crate) enum Verb {
     Convert(Convert),
     Measure(Measure),
     Compare(Compare),
+    Converge(Converge),
 }
 
 /// Say what a file is: format, grid, channels, colour, validity.
@@ -232,4 +234,14 @@ pub(crate) fn parse_not_negative(text: &str) -> Result<f64, String> {
         .ok()
         .filter(|v| *v >= 0.0)
         .ok_or_else(|| "expected a number, 0 or more".into())
+}
+
+pub(crate) fn parse_size(text: &str) -> Result<(u32, u32), String> {
+    let sides = text
+        .split_once('x')
+        .and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
+    match sides {
+        Some((w, h)) if (1..=16_384).contains(&w) && (1..=16_384).contains(&h) => Ok((w, h)),
+        _ => Err("expected WIDTHxHEIGHT, each 1 to 16384, such as 640x480".into()),
+    }
 }

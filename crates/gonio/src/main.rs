@@ -4,6 +4,7 @@ mod args;
 mod curves;
 mod load;
 mod output;
+mod process;
 mod verbs;
 
 use args::{Cli, Verb};
@@ -69,6 +70,7 @@ fn run(cli: &Cli) -> anyhow::Result<()> {
         Some(Verb::Mix(args)) => verbs::mix::run(&context, args),
         Some(Verb::Convert(args)) => verbs::convert::run(&context, args),
         Some(Verb::Measure(args)) => verbs::measure::run(&context, args),
+        Some(Verb::Converge(args)) => verbs::converge::run(&context, args),
         Some(Verb::Compare(args)) => verbs::compare::run(&context, args),
     }
 }

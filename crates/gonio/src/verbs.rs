@@ -1,6 +1,7 @@
 //! The verbs: each parses nothing, calls a library, prints.
 
 pub(crate) mod compare;
+pub(crate) mod converge;
 pub(crate) mod convert;
 pub(crate) mod eval;
 pub(crate) mod info;

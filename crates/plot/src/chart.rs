@@ -63,9 +63,9 @@ pub struct Chart {
 
 /// An axis as plotters wants it: our scale decides where a value lies and where the ticks are.
 #[derive(Clone)]
-struct Placed {
-    scale: Scale,
-    range: Range<f64>,
+pub(crate) struct Placed {
+    pub(crate) scale: Scale,
+    pub(crate) range: Range<f64>,
 }
 
 impl Ranged for Placed {
@@ -131,7 +131,7 @@ fn log_ticks(range: &Range<f64>, most: usize) -> Vec<f64> {
 }
 
 /// A number as short as it can be read: `0.001`, `1e-5`, `250`.
-fn shown(value: f64) -> String {
+pub(crate) fn shown(value: f64) -> String {
     let size = value.abs();
     if size != 0.0 && !(1e-3..1e5).contains(&size) {
         format!("{value:.0e}")
@@ -200,29 +200,6 @@ impl Chart {
         })
     }
 
-    /// Where the legend hides the fewest points; the upper right if all are alike.
-    fn emptiest_corner(&self, x: &Placed, y: &Placed) -> SeriesLabelPosition {
-        // in thousandths of the axes; a legend takes less than four tenths of either
-        let near = |axis: &Placed, value: f64, corner: i32| {
-            (axis.map(&value, (0, 1000)) - corner).abs() < 400
-        };
-        let hidden = |(cx, cy): (i32, i32)| {
-            let points = self.curves.iter().flat_map(|c| &c.points);
-            points
-                .filter(|p| near(x, p.0, cx) && near(y, p.1, cy))
-                .count()
-        };
-        [
-            (SeriesLabelPosition::UpperRight, (1000, 1000)),
-            (SeriesLabelPosition::UpperLeft, (0, 1000)),
-            (SeriesLabelPosition::LowerRight, (1000, 0)),
-            (SeriesLabelPosition::LowerLeft, (0, 0)),
-        ]
-        .into_iter()
-        .min_by_key(|(_, corner)| hidden(*corner))
-        .map_or(SeriesLabelPosition::UpperRight, |(position, _)| position)
-    }
-
     fn draw<B: DrawingBackend>(
         &self,
         area: &DrawingArea<B, plotters::coord::Shift>,
@@ -230,7 +207,8 @@ impl Chart {
         y: Placed,
     ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
         area.fill(&WHITE)?;
-        let legend = self.emptiest_corner(&x, &y);
+        let points = self.curves.iter().flat_map(|c| c.points.iter().copied());
+        let legend = emptiest_corner(points, &x, &y);
         let keep = {
             let (x, y) = (x.clone(), y.clone());
             move |p: &(f64, f64)| {
@@ -290,6 +268,32 @@ impl Chart {
         }
         Ok(())
     }
+}
+
+/// Where a legend hides the fewest points; the upper right if all are alike.
+pub(crate) fn emptiest_corner(
+    points: impl Iterator<Item = (f64, f64)> + Clone,
+    x: &Placed,
+    y: &Placed,
+) -> SeriesLabelPosition {
+    // in thousandths of the axes; a legend takes less than four tenths of either
+    let near =
+        |axis: &Placed, value: f64, corner: i32| (axis.map(&value, (0, 1000)) - corner).abs() < 400;
+    let hidden = |(cx, cy): (i32, i32)| {
+        points
+            .clone()
+            .filter(|p| near(x, p.0, cx) && near(y, p.1, cy))
+            .count()
+    };
+    [
+        (SeriesLabelPosition::UpperRight, (1000, 1000)),
+        (SeriesLabelPosition::UpperLeft, (0, 1000)),
+        (SeriesLabelPosition::LowerRight, (1000, 0)),
+        (SeriesLabelPosition::LowerLeft, (0, 0)),
+    ]
+    .into_iter()
+    .min_by_key(|(_, corner)| hidden(*corner))
+    .map_or(SeriesLabelPosition::UpperRight, |(position, _)| position)
 }
 
 #[cfg(test)]

@@ -9,9 +9,16 @@
 //! - [`warp`]: closed-form maps. [`Piecewise1`], [`Piecewise2`]: inversion of tables.
 //!   [`AliasTable`], [`Rejection`], [`Mixture`]: the other ways to sample.
 //! - [`mis`]: weights that combine samplers. [`Welford`], [`Replicates`]: means with their errors.
+//!   [`Line`], [`jackknife`]: fits and the errors of derived numbers.
+//! - [`chi2`]: whether a sampler agrees with the density it claims; with the quadrature ([`integrate`]), the special
+//!   functions ([`special`]) and the levels ([`sidak`]) it rests on.
 
 mod alias;
+pub mod chi2;
 mod density_error;
+pub mod domain;
+pub mod integrate;
+mod line;
 pub mod mis;
 mod mixture;
 mod piecewise1;
@@ -20,12 +27,16 @@ pub mod points;
 mod rejection;
 mod replicates;
 mod rng;
+mod significance;
+pub mod special;
 mod student;
 pub mod warp;
 mod welford;
 
 pub use alias::AliasTable;
 pub use density_error::DensityError;
+pub use domain::Domain;
+pub use line::{Line, jackknife};
 pub use mixture::Mixture;
 pub use piecewise1::Piecewise1;
 pub use piecewise2::Piecewise2;
@@ -33,6 +44,7 @@ pub use points::{PointSet, Points};
 pub use rejection::Rejection;
 pub use replicates::Replicates;
 pub use rng::Rng;
+pub use significance::{sidak, significant};
 pub use student::student_quantile;
 pub use welford::Welford;
 

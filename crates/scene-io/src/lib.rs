@@ -7,11 +7,14 @@
 //! - [`material`]: measured files and models to materials.
 //! - [`image`], [`compare`]: EXR and PNG, and how far two pictures are apart.
 //! - [`rows`]: error against run time, as a render goes on.
+//! - [`converge`]: error against run time of several ways to render a scene.
+//! - [`survey`]: how noisy, how fast and how right a sampler of a material is.
 //! - [`checkpoint`], [`Cache`]: what gonio keeps for itself.
 //!
 //! No process-wide state, no environment variables: folders to search and to cache in are arguments.
 
 pub mod checkpoint;
+pub mod converge;
 pub mod convert;
 pub mod image;
 pub mod load;
@@ -20,6 +23,7 @@ pub mod mesh;
 pub mod rows;
 pub mod scene;
 pub mod sealed;
+pub mod survey;
 pub mod write;
 
 mod build;

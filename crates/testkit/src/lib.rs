@@ -4,21 +4,18 @@
 //! ([`z_test`], [`t_test`]), quadrature to check densities and energy against ([`integrate`]).
 //! Everything is told by closures on plain arrays; all seeds are fixed, so a test that passes once
 //! passes always.
+//! The statistics the product uses too stand in crate `sampling`; what is here drives them with random numbers that
+//! depend on nothing they test.
 //! Not here: reflectance, samplers, files.
 
 pub mod chi2;
 mod close;
 mod data;
-pub mod domain;
-pub mod integrate;
 mod mean;
 mod rng;
-mod significance;
-pub mod special;
 
 pub use close::{assert_close, assert_relative, relative_error};
 pub use data::{data_dir, data_dir_or_skip, read_data};
-pub use domain::Domain;
 pub use mean::{MeanTest, t_test, within_standard_errors, z_test};
 pub use rng::Rng;
-pub use significance::{sidak, significant};
+pub use sampling::{Domain, domain, integrate, sidak, significant, special};

@@ -1,6 +1,6 @@
 //! Tests of a mean against its known value.
 
-use crate::special::{normal_two_sided, student_two_sided};
+use sampling::special::{normal_two_sided, student_two_sided};
 
 /// How far a mean is from its hypothesis.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,7 +10,7 @@ pub(super) const ARROWS: &[(&str, &[&str])] = &[
     ("sampling", &[]),
     ("brdf-formats", &[]),
     ("plot", &[]),
-    ("testkit", &[]),
+    ("testkit", &["sampling"]),
     ("brdf", &["spectrum", "sampling"]),
     ("brdf-models", &["brdf", "spectrum", "sampling"]),
     (

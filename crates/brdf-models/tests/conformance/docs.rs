@@ -35,6 +35,7 @@ fn laws(laws: Laws) -> String {
     let broken = [
         (laws.reciprocal, "reciprocity"),
         (laws.conserves_energy, "energy"),
+        (laws.non_negative, "positivity"),
     ];
     let broken: Vec<_> = broken
         .iter()

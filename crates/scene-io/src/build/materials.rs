@@ -2,7 +2,7 @@
 
 use super::Places;
 use crate::error::Error;
-use crate::material::{MaterialOptions, SamplerReport, Surface, load_measured};
+use crate::material::{SamplerReport, Surface};
 use crate::scene::{
     FileMaterial, MaterialSpec, MixMaterial, ModelMaterial, SamplerName, SceneFile,
 };
@@ -83,30 +83,7 @@ fn surface(
     spec: &MaterialSpec,
     places: &Places,
 ) -> Result<(Surface, Option<PathBuf>), Error> {
-    let default = file.render.sampler;
     match spec {
-        MaterialSpec::File(m) => {
-            let path = places.data.find(&m.path, &m.home)?;
-            let options = MaterialOptions::of_file(m, default);
-            let loaded = load_measured(&path, &options)?;
-            Ok((
-                Surface::of_file(&loaded, &options, &places.cache)?,
-                Some(path),
-            ))
-        }
-        MaterialSpec::Model(m) => {
-            let options = MaterialOptions::of_model(m, default);
-            Ok((Surface::of_model(&m.model, &options)?, None))
-        }
-        MaterialSpec::Measured(m) => {
-            let options = MaterialOptions::of_model(m, default);
-            Ok((Surface::of_measured_model(&m.model, &options)?, None))
-        }
-        MaterialSpec::Lambert { reflectance } => {
-            let [r, g, b] = reflectance.0;
-            let text = format!("lambert:kd={r}/{g}/{b}");
-            Ok((Surface::of_model(&text, &MaterialOptions::default())?, None))
-        }
         MaterialSpec::Mix(mix) => {
             let mut parts = Vec::new();
             for (name, weight) in &mix.parts {
@@ -120,5 +97,6 @@ fn surface(
             }
             Ok((Surface::mix(&parts)?, None))
         }
+        alone => Surface::of_spec(alone, places),
     }
 }

@@ -20,6 +20,7 @@ pub(crate) use measured_file::measured_from_bytes;
 pub use measured_file::{identify, load_measured};
 pub use options::MaterialOptions;
 pub use pair::SamplerReport;
+pub(crate) use pair::{Visitor, luminance};
 pub use surface::Surface;
 
 use crate::cache::Cache;

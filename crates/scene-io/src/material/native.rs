@@ -1,6 +1,6 @@
 //! Measurements that are rendered through their own answers, in their own channels.
 
-use super::pair::{self, SamplerReport};
+use super::pair::{self, SamplerReport, Visitor};
 use crate::cache::{Cache, combine};
 use crate::error::Error;
 use crate::scene::SamplerName;
@@ -66,6 +66,21 @@ impl Native {
                 Ok((Box::new(Paired { brdf, sampler }), report))
             }
             _ => pair::pair(brdf, name, (|_: &_| self.key, cache)),
+        }
+    }
+
+    /// Hands the sampler `name` stands for to `visitor`.
+    pub(super) fn sampler<V: Visitor>(
+        &self,
+        name: SamplerName,
+        cache: &Cache,
+        visitor: V,
+    ) -> Result<V::Out, Error> {
+        match (name, &self.sampler) {
+            (SamplerName::Native, Some(sampler)) => {
+                Ok(visitor.visit(Arc::clone(sampler), SamplerReport::new(name, 0)))
+            }
+            _ => pair::build(&self.brdf, name, (|_: &_| self.key, cache), visitor),
         }
     }
 }

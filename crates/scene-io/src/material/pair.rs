@@ -6,8 +6,8 @@ use crate::scene::SamplerName;
 use crate::sealed::content_hash;
 use brdf::{Brdf, DirectionSampler, Material, Paired};
 use brdf_sampling::{
-    Cosine, Hvt, Inversion, InversionOptions, Preset, Rejection, RejectionOptions, SharedTarget,
-    Target, Uniform,
+    Cosine, Dictionary, Hvt, Inversion, InversionOptions, Preset, Rejection, RejectionOptions,
+    SharedTarget, Target, Uniform,
 };
 use brdf_table::GriddedN;
 use glam::DVec3;
@@ -44,27 +44,85 @@ impl SamplerReport {
 
 type Pair = (Box<dyn Material<3>>, SamplerReport);
 
+/// What is done with a sampler once its concrete type is known.
+pub(crate) trait Visitor {
+    /// What comes of it.
+    type Out;
+    /// `report` is complete but for the bytes of the tables.
+    fn visit<S: DirectionSampler + 'static>(self, sampler: S, report: SamplerReport) -> Self::Out;
+}
+
+/// Makes a material of a reflectance and the sampler that comes.
+struct Pairing<B>(B);
+
+impl<B: Brdf<3> + 'static> Visitor for Pairing<B> {
+    type Out = Pair;
+
+    fn visit<S: DirectionSampler + 'static>(self, sampler: S, report: SamplerReport) -> Pair {
+        let report = SamplerReport {
+            bytes: sampler.bytes(),
+            stratified: sampler.keeps_stratification(),
+            ..report
+        };
+        let brdf = self.0;
+        (Box::new(Paired { brdf, sampler }), report)
+    }
+}
+
 /// Pairs `brdf` with the sampler `name` stands for; one instance of this function per kind of reflectance.
 pub(super) fn pair<B: Brdf<3> + Clone + 'static>(
     brdf: B,
     name: SamplerName,
-    (key, cache): (impl Fn(&B) -> u64, &Cache),
+    kept: (impl Fn(&B) -> u64, &Cache),
 ) -> Result<Pair, Error> {
+    let pairing = Pairing(brdf.clone());
+    build(&brdf, name, kept, pairing)
+}
+
+/// Builds the sampler `name` stands for and hands it to `visitor`.
+pub(super) fn build<B: Brdf<3> + Clone + 'static, V: Visitor>(
+    brdf: &B,
+    name: SamplerName,
+    (key, cache): (impl Fn(&B) -> u64, &Cache),
+    visitor: V,
+) -> Result<V::Out, Error> {
     let start = Instant::now();
-    let (material, mut report) = match name {
-        SamplerName::Uniform => with(brdf, Uniform, name),
-        SamplerName::Cosine => with(brdf, Cosine, name),
-        SamplerName::Auto | SamplerName::Hvt => {
-            let sampler = tabulate(&brdf, |target| Hvt::new(target, Preset::Default.options()));
-            with(brdf, sampler, SamplerName::Hvt)
+    let done = |name| {
+        let mut report = SamplerReport::new(name, 0);
+        report.build_seconds = start.elapsed().as_secs_f64();
+        report
+    };
+    Ok(match name {
+        SamplerName::Uniform => visitor.visit(Uniform, done(name)),
+        SamplerName::Cosine => visitor.visit(Cosine, done(name)),
+        SamplerName::Auto
+        | SamplerName::Hvt
+        | SamplerName::HvtTiny
+        | SamplerName::HvtFine
+        | SamplerName::HvtReference => {
+            let (name, preset) = preset(name);
+            let sampler = tabulate(brdf, |target| Hvt::new(target, preset.options()));
+            visitor.visit(sampler, done(name))
         }
         SamplerName::Inversion => {
-            let sampler = tabulate(&brdf, |t| Inversion::new(t, InversionOptions::default()));
-            with(brdf, sampler, name)
+            let sampler = tabulate(brdf, |t| Inversion::new(t, InversionOptions::default()));
+            visitor.visit(sampler, done(name))
+        }
+        SamplerName::Dictionary => {
+            let sampler = tabulate(brdf, Dictionary::new);
+            visitor.visit(sampler, done(name))
+        }
+        SamplerName::GgxSingle => {
+            let sampler = tabulate(brdf, Dictionary::single);
+            visitor.visit(sampler, done(name))
         }
         SamplerName::Rejection => {
-            let key = key(&brdf);
-            rejection(brdf, key, cache)?
+            let (sampler, notes) = rejection(brdf.clone(), key(brdf), cache)?;
+            let report = SamplerReport {
+                notes,
+                ..done(name)
+            };
+            visitor.visit(sampler, report)
         }
         SamplerName::Native => {
             return Err(Error::invalid(
@@ -72,32 +130,27 @@ pub(super) fn pair<B: Brdf<3> + Clone + 'static>(
             )
             .in_field("sampler"));
         }
-    };
-    report.build_seconds = start.elapsed().as_secs_f64();
-    Ok((material, report))
+    })
 }
 
-fn with<B: Brdf<3> + 'static, S: DirectionSampler + 'static>(
-    brdf: B,
-    sampler: S,
-    name: SamplerName,
-) -> Pair {
-    let mut report = SamplerReport::new(name, sampler.bytes());
-    report.stratified = sampler.keeps_stratification();
-    (Box::new(Paired { brdf, sampler }), report)
+/// The name a half-vector table goes by, and its size.
+fn preset(name: SamplerName) -> (SamplerName, Preset) {
+    match name {
+        SamplerName::HvtTiny => (name, Preset::Tiny),
+        SamplerName::HvtFine => (name, Preset::Fine),
+        SamplerName::HvtReference => (name, Preset::Reference),
+        _ => (SamplerName::Hvt, Preset::Default),
+    }
 }
 
-fn rejection<B: Brdf<3> + Clone + 'static>(
+fn rejection<B: Brdf<3> + 'static>(
     brdf: B,
     key: u64,
     cache: &Cache,
-) -> Result<Pair, Error> {
+) -> Result<(Rejection, Vec<String>), Error> {
     let options = RejectionOptions::default();
     let symmetry = brdf.symmetry();
-    let target: SharedTarget = {
-        let brdf = brdf.clone();
-        Arc::new(move |wi, wo| luminance(&brdf, wi, wo))
-    };
+    let target: SharedTarget = Arc::new(move |wi, wo| luminance(&brdf, wi, wo));
     let n_phi = if symmetry.isotropic { 1 } else { options.n_phi };
     let sizes = [
         options.n_theta as u64,
@@ -116,9 +169,7 @@ fn rejection<B: Brdf<3> + Clone + 'static>(
     );
     let sampler = Rejection::from_cache(target, maxima, options.max_tries)
         .map_err(|e| Error::invalid(e.to_string()).in_field("sampler"))?;
-    let (material, mut report) = with(brdf, sampler, SamplerName::Rejection);
-    report.notes = notes;
-    Ok((material, report))
+    Ok((sampler, notes))
 }
 
 /// Builds a sampler for the luminance of `brdf`.
@@ -130,7 +181,7 @@ fn tabulate<S>(brdf: &impl Brdf<3>, build: impl FnOnce(Target<'_>) -> S) -> S {
     })
 }
 
-fn luminance(brdf: &impl Brdf<3>, wi: DVec3, wo: DVec3) -> f64 {
+pub(crate) fn luminance(brdf: &(impl Brdf<3> + ?Sized), wi: DVec3, wo: DVec3) -> f64 {
     let f = brdf.eval(wi, wo);
     f.iter().zip(LUMINANCE_SRGB).map(|(v, w)| v * w).sum()
 }

@@ -1,13 +1,15 @@
 //! Any material as linear sRGB reflectance.
 
 use super::loaded::{Form, LoadedMeasured};
+use super::measured_file::load_measured;
 use super::measured_model;
 use super::native::Native;
 use super::options::MaterialOptions;
-use super::pair::{self, SamplerReport};
+use super::pair::{self, SamplerReport, Visitor};
+use crate::build::Places;
 use crate::cache::{Cache, combine};
 use crate::error::Error;
-use crate::scene::{InterpolationName, SamplerName};
+use crate::scene::{InterpolationName, MaterialSpec, SamplerName};
 use crate::sealed::content_hash;
 use brdf::{Brdf, Material, Measured, Status, Symmetry};
 use brdf_measure::MERL_DIMS;
@@ -19,6 +21,7 @@ use brdf_table::{
 use glam::DVec3;
 use spectrum::{Basis, RgbSpace};
 use std::fmt;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Reflectance in linear sRGB, before a sampler is chosen for it.
@@ -72,6 +75,40 @@ impl Surface {
         };
         let table = scaled(table, options.scale)?;
         Self::grid(table, interpolation, notes)
+    }
+
+    /// A material by itself, with the path it was read from; mixtures need the materials of their scene and are refused.
+    ///
+    /// # Errors
+    /// Missing or broken files, models that do not exist.
+    pub fn of_spec(spec: &MaterialSpec, places: &Places) -> Result<(Self, Option<PathBuf>), Error> {
+        let without = SamplerName::Auto;
+        Ok(match spec {
+            MaterialSpec::File(m) => {
+                let path = places.data.find(&m.path, &m.home)?;
+                let options = MaterialOptions::of_file(m, without);
+                let loaded = load_measured(&path, &options)?;
+                (Self::of_file(&loaded, &options, &places.cache)?, Some(path))
+            }
+            MaterialSpec::Model(m) => {
+                let options = MaterialOptions::of_model(m, without);
+                (Self::of_model(&m.model, &options)?, None)
+            }
+            MaterialSpec::Measured(m) => {
+                let options = MaterialOptions::of_model(m, without);
+                (Self::of_measured_model(&m.model, &options)?, None)
+            }
+            MaterialSpec::Lambert { reflectance } => {
+                let [r, g, b] = reflectance.0;
+                let text = format!("lambert:kd={r}/{g}/{b}");
+                (Self::of_model(&text, &MaterialOptions::default())?, None)
+            }
+            MaterialSpec::Mix(_) => {
+                return Err(Error::invalid(
+                    "expected a material by itself, found a mixture",
+                ));
+            }
+        })
     }
 
     /// A model evaluated exactly, `ggx:alpha=0.1`.
@@ -218,6 +255,37 @@ impl Surface {
         };
         report.notes.splice(..0, self.notes);
         Ok((material, report))
+    }
+
+    /// Whether a sampler of its own comes with it: [`SamplerName::Native`].
+    #[must_use]
+    pub fn has_native_sampler(&self) -> bool {
+        match &self.form {
+            Form3::Grid(_) => false,
+            Form3::Model(..) => true,
+            Form3::Native(native) => native.sampler.is_some(),
+        }
+    }
+
+    /// Hands the sampler `name` stands for, in its concrete type, to `visitor`.
+    pub(crate) fn sampler<V: Visitor>(
+        &self,
+        name: SamplerName,
+        cache: &Cache,
+        visitor: V,
+    ) -> Result<V::Out, Error> {
+        match (&self.form, name) {
+            (Form3::Model(model, _), SamplerName::Auto | SamplerName::Native) => {
+                let report = SamplerReport::new(SamplerName::Native, 0);
+                Ok(visitor.visit(Arc::clone(&model.sampler), report))
+            }
+            (Form3::Model(model, text), _) => {
+                let key = |_: &_| content_hash(text.as_bytes());
+                pair::build(&model.brdf, name, (key, cache), visitor)
+            }
+            (Form3::Native(native), _) => native.sampler(name, cache, visitor),
+            (Form3::Grid(grid), _) => pair::build(grid, name, (pair::table_key, cache), visitor),
+        }
     }
 }
 

@@ -58,6 +58,16 @@ names!(
         Auto = "auto",
         /// Half-vector table: nearly noiseless, a few kilobytes.
         Hvt = "hvt",
+        /// The same in 1 KB.
+        HvtTiny = "hvt-tiny",
+        /// The same in 43 KB.
+        HvtFine = "hvt-fine",
+        /// The same in 111 KB.
+        HvtReference = "hvt-reference",
+        /// Ten GGX lobes and a cosine.
+        Dictionary = "dictionary",
+        /// The best single GGX lobe and a cosine.
+        GgxSingle = "ggx-single",
         /// Exact inversion per slice of the known direction.
         Inversion = "inversion",
         /// The thesis' rejection per slice.

@@ -81,7 +81,7 @@ const MISTAKES_OF_FORM: &[(&str, &str)] = &[
     ),
     (
         "render: (sampler: \"bets\")",
-        "3:22: render.sampler: expected a sampler (auto, hvt, inversion, rejection, cosine, uniform, native), found \"bets\"",
+        "3:22: render.sampler: expected a sampler (auto, hvt, hvt-tiny, hvt-fine, hvt-reference, dictionary, ggx-single, inversion, rejection, cosine, uniform, native), found \"bets\"",
     ),
     (
         "render: (points: \"hammersley\")",

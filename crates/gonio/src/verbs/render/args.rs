@@ -1,7 +1,7 @@
 //! `gonio render` as typed.
 
 use super::strategy::LightStrategy;
-use crate::args::{parse_exr, with_ending};
+use crate::args::{parse_exr, parse_size, with_ending};
 use clap::Args;
 use scene_io::scene::{InterpolationName, SamplerName};
 use std::path::PathBuf;
@@ -102,16 +102,6 @@ fn parse_csv(text: &str) -> Result<PathBuf, String> {
 
 fn parse_png(text: &str) -> Result<PathBuf, String> {
     with_ending(text, &["png"], "an output ending in .png")
-}
-
-fn parse_size(text: &str) -> Result<(u32, u32), String> {
-    let sides = text
-        .split_once('x')
-        .and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
-    match sides {
-        Some((w, h)) if (1..=16_384).contains(&w) && (1..=16_384).contains(&h) => Ok((w, h)),
-        _ => Err("expected WIDTHxHEIGHT, each 1 to 16384, such as 640x480".into()),
-    }
 }
 
 /// A share of one: 1% or 0.01.

@@ -1,7 +1,8 @@
 //! What a person sees while a picture is made, and how they stop it.
 
 use crate::output::say;
-use anyhow::{Context as _, Result};
+use crate::process;
+use anyhow::Result;
 use indicatif::{ProgressBar, ProgressStyle};
 use scene_io::rows::{CONFIDENCE, Recorder, Row};
 use std::io::IsTerminal;
@@ -41,9 +42,7 @@ impl<const N: usize> Progress<N> for Silent<'_> {
 impl Watch {
     /// `quiet` shows nothing unless stderr is a terminal.
     pub(super) fn new(quiet: bool, recorder: Recorder) -> Result<Self> {
-        let stop = Arc::new(AtomicBool::new(false));
-        let flag = Arc::clone(&stop);
-        ctrlc::set_handler(move || interrupt(&flag)).context("cannot watch for Ctrl-C")?;
+        let stop = process::watch_interrupts()?;
         let terminal = std::io::stderr().is_terminal();
         let bar = if terminal {
             ProgressBar::new(0)
@@ -60,7 +59,7 @@ impl Watch {
             plain: !terminal && !quiet,
             stop,
             start: Instant::now(),
-            cpu: cpu_seconds(),
+            cpu: process::cpu_seconds(),
             rows: Mutex::new((recorder, None)),
             every: Duration::MAX,
             since: Mutex::new(Instant::now()),
@@ -76,7 +75,7 @@ impl Watch {
 
     /// Time counts from now on.
     pub(super) fn restart(&mut self) {
-        (self.start, self.cpu) = (Instant::now(), cpu_seconds());
+        (self.start, self.cpu) = (Instant::now(), process::cpu_seconds());
         self.resume();
     }
 
@@ -121,7 +120,10 @@ impl Watch {
 
     /// Wall-clock and processor seconds since the start.
     pub(super) fn seconds(&self) -> [f64; 2] {
-        [self.start.elapsed().as_secs_f64(), cpu_seconds() - self.cpu]
+        [
+            self.start.elapsed().as_secs_f64(),
+            process::cpu_seconds() - self.cpu,
+        ]
     }
 
     pub(super) fn interrupted(&self) -> bool {
@@ -158,30 +160,5 @@ impl<const N: usize> Progress<N> for Watch {
                 ControlFlow::Break(())
             }
         }
-    }
-}
-
-/// The first Ctrl-C asks the render to end, the second ends the program: with 130, as shells do for signal 2.
-#[expect(
-    clippy::exit,
-    reason = "whoever interrupts twice does not want to wait"
-)]
-fn interrupt(stop: &AtomicBool) {
-    if stop.swap(true, Ordering::Relaxed) {
-        std::process::exit(130);
-    }
-    say("interrupted: finishing the tiles at hand; once more ends the program at once");
-}
-
-/// Seconds of processor time this process has used, all threads; 0 where the system does not say.
-fn cpu_seconds() -> f64 {
-    #[cfg(unix)]
-    {
-        let time = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
-        time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
-    }
-    #[cfg(not(unix))]
-    {
-        0.0
     }
 }

@@ -155,7 +155,7 @@ pub fn student_two_sided(t: f64, dof: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::assert_relative;
+    use testkit::assert_relative;
 
     #[test]
     fn ln_gamma_of_integers_and_halves() {

@@ -11,7 +11,6 @@ mod report;
 
 use crate::domain::Domain;
 use crate::integrate::{Estimate, Tolerance, over_rect};
-use crate::rng::Rng;
 use crate::significance::sidak;
 use crate::special::chi2_tail;
 use cells::Cells;
@@ -24,8 +23,6 @@ pub struct Config {
     pub domain: Domain,
     /// Samples counted; a quarter more is drawn for the pilot.
     pub samples: usize,
-    /// Seed of the random numbers handed to the sampler.
-    pub seed: u64,
     /// Probability of rejecting a correct sampler, over all `tests` together.
     pub level: f64,
     /// How many chi-square tests share `level` [Sidak1967].
@@ -38,7 +35,6 @@ impl Default for Config {
         Self {
             domain: Domain::Hemisphere,
             samples: 100_000,
-            seed: 0,
             level: 0.01,
             tests: 1,
         }
@@ -61,17 +57,16 @@ const STRAY: f64 = 2e-5;
 /// Compares `sample` (`None`: nothing sampled) with the density `pdf` it claims, per the measure of the
 /// domain.
 ///
-/// The report is the verdict: assert its `ok` with the report as the message. All randomness comes from the
-/// generator handed to `sample`.
+/// The report is the verdict: whoever asserts its `ok` takes the report as the message. `sample` brings its own
+/// random numbers.
 pub fn test(
     config: &Config,
-    mut sample: impl FnMut(&mut Rng) -> Option<[f64; 3]>,
+    mut sample: impl FnMut() -> Option<[f64; 3]>,
     pdf: impl Fn([f64; 3]) -> f64,
 ) -> Chi2Report {
     let domain = config.domain;
-    let mut rng = Rng::new(config.seed);
     let pilot: Vec<[f64; 2]> = (0..config.samples / 4)
-        .filter_map(|_| sample(&mut rng))
+        .filter_map(|_| sample())
         .map(|p| domain.to_chart(p))
         .collect();
     let mut cells = Cells::build(domain, pilot);
@@ -84,7 +79,7 @@ pub fn test(
         .iter()
         .map(|rect| over_rect(domain, &pdf, *rect, tolerance))
         .collect();
-    let count = count(config, &mut cells, || sample(&mut rng), &pdf);
+    let count = count(config, &mut cells, sample, &pdf);
     judge(config, &cells, &integrals, &count)
 }
 

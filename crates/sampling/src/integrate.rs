@@ -177,7 +177,7 @@ fn lobatto(domain: Domain, f: &impl Fn([f64; 3]) -> f64, rect: &Rect) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::assert_relative;
+    use testkit::assert_relative;
 
     #[test]
     fn hemisphere_of_polynomials_is_exact() {
