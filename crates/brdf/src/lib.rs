@@ -16,6 +16,7 @@ mod half_diff;
 mod lanes;
 mod material;
 mod measured;
+mod spread;
 mod tag;
 
 pub use contract::{Brdf, DirectionSample, DirectionSampler, SampleLanes, Symmetry};
@@ -23,4 +24,5 @@ pub use half_diff::{HalfDiff, direction};
 pub use lanes::{LANES, Lanes3};
 pub use material::{EvalPacket, Material, Paired, SamplePacket};
 pub use measured::{Measured, Projected, Status};
+pub use spread::{Rotated, Spread};
 pub use tag::{HERO, ROTATIONS, RotatedTable, Rotation, Tag, TaggedBrdf};

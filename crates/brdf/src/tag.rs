@@ -11,10 +11,35 @@ use std::fmt::Debug;
 pub trait Tag: Copy + Debug + Send + Sync + 'static {
     /// Any value; what unused lanes hold.
     const FIRST: Self;
+
+    /// Number `k` of `all`. Where all tags are one, nothing is read and no index checked.
+    ///
+    /// # Panics
+    /// If tags differ and there are not as many.
+    #[inline(always)]
+    #[must_use]
+    fn of(all: &[Self], k: usize) -> Self {
+        all[k]
+    }
+
+    /// Makes number `k` of `all` this one, likewise.
+    ///
+    /// # Panics
+    /// As [`Self::of`].
+    #[inline(always)]
+    fn put(self, all: &mut [Self], k: usize) {
+        all[k] = self;
+    }
 }
 
 impl Tag for () {
     const FIRST: Self = ();
+
+    #[inline(always)]
+    fn of(_: &[Self], _: usize) -> Self {}
+
+    #[inline(always)]
+    fn put(self, _: &mut [Self], _: usize) {}
 }
 
 /// Wavelengths a path carries in hero sampling.

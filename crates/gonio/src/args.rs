@@ -38,6 +38,7 @@ pub(crate) enum Verb {
     Convert(Convert),
     Measure(Measure),
     Compare(Compare),
+    Spectra(crate::verbs::spectra::Spectra),
     Converge(Converge),
 }
 

@@ -72,6 +72,7 @@ fn run(cli: &Cli) -> anyhow::Result<()> {
         Some(Verb::Measure(args)) => verbs::measure::run(&context, args),
         Some(Verb::Converge(args)) => verbs::converge::run(&context, args),
         Some(Verb::Compare(args)) => verbs::compare::run(&context, args),
+        Some(Verb::Spectra(args)) => verbs::spectra::run(&context, args),
     }
 }
 

@@ -10,6 +10,7 @@ pub(crate) mod merge;
 pub(crate) mod mix;
 pub(crate) mod plot;
 pub(crate) mod render;
+pub(crate) mod spectra;
 
 use crate::args::Cli;
 use crate::output;

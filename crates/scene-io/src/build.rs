@@ -5,6 +5,7 @@ mod materials;
 mod shapes;
 
 pub use materials::MaterialReport;
+pub(crate) use materials::native_bands;
 
 use crate::cache::Cache;
 use crate::data_dirs::DataDirs;
@@ -12,6 +13,7 @@ use crate::error::Error;
 use crate::image::{Picture, ToneMap};
 use crate::overrides::Overrides;
 use crate::scene::{ExposureSpec, FilterSpec, MaterialSpec, PointsName, SceneFile};
+use crate::spectral::{self, AnyScene, Palette, RgbPalette};
 use glam::DVec3;
 use tracer::{Camera, Description, PixelFilter, PointSet, Scene, Settings};
 
@@ -26,9 +28,9 @@ pub struct Places {
 
 /// A scene ready to be rendered.
 #[derive(Debug)]
-pub struct BuiltScene {
+pub struct BuiltScene<S = Scene<3>> {
     /// Geometry, materials, lights.
-    pub scene: Scene<3>,
+    pub scene: S,
     /// Samples, depth, seed, points, filter.
     pub settings: Settings,
     /// Pixels across and down.
@@ -45,7 +47,7 @@ pub struct BuiltScene {
     pub notes: Vec<String>,
 }
 
-impl BuiltScene {
+impl<S> BuiltScene<S> {
     /// How `picture` is brought to the screen.
     #[must_use]
     pub fn tone_map(&self, picture: &Picture) -> ToneMap {
@@ -58,7 +60,7 @@ impl BuiltScene {
     }
 }
 
-/// Loads everything the scene uses, and nothing else.
+/// Loads everything the scene uses, and nothing else; in linear sRGB, whatever spectrum it names.
 ///
 /// # Errors
 /// Missing or broken files, materials that cannot be made, shapes the tracer refuses; each names the scene file
@@ -68,22 +70,80 @@ pub fn build_scene(
     overrides: &Overrides,
     places: &Places,
 ) -> Result<BuiltScene, Error> {
+    assemble(file, overrides, |file, notes| {
+        parts(file, places, &RgbPalette, notes)
+    })
+}
+
+/// Like [`build_scene`], in the spectrum the scene names.
+///
+/// # Errors
+/// As [`build_scene`].
+pub fn build_any_scene(
+    file: SceneFile,
+    overrides: &Overrides,
+    places: &Places,
+) -> Result<BuiltScene<AnyScene>, Error> {
+    assemble(file, overrides, |file, notes| {
+        spectral::build(file, places, notes)
+    })
+}
+
+fn assemble<S>(
+    file: SceneFile,
+    overrides: &Overrides,
+    make: impl FnOnce(&SceneFile, &mut Vec<String>) -> Result<Parts<S>, Error>,
+) -> Result<BuiltScene<S>, Error> {
     let path = file.path.clone();
     let file = overrides.apply(file)?;
-    build(file, places).map_err(|e| {
+    let mut notes = Vec::new();
+    let made = make(&file, &mut notes).map_err(|e| {
         if path.as_os_str().is_empty() {
             e
         } else {
             e.in_file(&path)
         }
+    })?;
+    Ok(BuiltScene {
+        settings: settings(&file),
+        size: (file.film.width, file.film.height),
+        exposure: file.film.exposure,
+        left_out: left_out(&file, &made.index),
+        materials: made.reports,
+        scene: made.scene,
+        file,
+        notes,
     })
 }
 
-fn build(file: SceneFile, places: &Places) -> Result<BuiltScene, Error> {
-    let mut notes = Vec::new();
-    let used = materials::load(&file, places)?;
-    let objects = shapes::objects(&file, &used.index, places, &mut notes)?;
-    let (lights, environment) = lights::lights(&file, places)?;
+/// A scene, and what became of its materials.
+pub(crate) struct Parts<S> {
+    scene: S,
+    reports: Vec<MaterialReport>,
+    index: materials::Index,
+}
+
+impl<S> Parts<S> {
+    /// The same of another form.
+    pub(crate) fn map<T>(self, f: impl FnOnce(S) -> T) -> Parts<T> {
+        Parts {
+            scene: f(self.scene),
+            reports: self.reports,
+            index: self.index,
+        }
+    }
+}
+
+/// Makes the scene of what `palette` makes of its parts.
+pub(crate) fn parts<const N: usize, P: Palette<N>>(
+    file: &SceneFile,
+    places: &Places,
+    palette: &P,
+    notes: &mut Vec<String>,
+) -> Result<Parts<Scene<N, P::Mode>>, Error> {
+    let used = materials::load(file, places, palette)?;
+    let objects = shapes::objects(file, (&used.index, palette), places, notes)?;
+    let (lights, environment) = lights::lights(file, places, palette)?;
     let description = Description {
         camera: Camera {
             eye: DVec3::from(file.camera.position),
@@ -96,17 +156,13 @@ fn build(file: SceneFile, places: &Places) -> Result<BuiltScene, Error> {
         lights,
         environment,
     };
-    notes.extend(uneven(&file, &used.reports));
-    let scene = Scene::new(description).map_err(|e| Error::invalid(e.to_string()))?;
-    Ok(BuiltScene {
-        settings: settings(&file),
-        size: (file.film.width, file.film.height),
-        exposure: file.film.exposure,
-        left_out: left_out(&file, &used.index),
-        materials: used.reports,
+    notes.extend(uneven(file, &used.reports));
+    let scene =
+        Scene::with_mode(palette.mode(), description).map_err(|e| Error::invalid(e.to_string()))?;
+    Ok(Parts {
         scene,
-        file,
-        notes,
+        reports: used.reports,
+        index: used.index,
     })
 }
 

@@ -10,8 +10,8 @@ use std::path::{Path, PathBuf};
 
 /// Raised whenever the search for maxima or the layout below changes.
 const VERSION: u32 = 1;
-/// Largest cache file, bytes.
-const MAX_BYTES: u64 = 64 << 20;
+/// Largest cache file, bytes: a grid of 65 bands has 135 MB.
+const MAX_BYTES: u64 = 512 << 20;
 /// Most slices of a stored rejection cache: 4 million.
 const MAX_SLICES: usize = 1 << 22;
 
@@ -55,9 +55,9 @@ impl Cache {
         self.path(grid::KIND.name, key)
     }
 
-    /// The resampled interpolant for `key`, in linear sRGB: as [`Self::rejection`].
+    /// The resampled interpolant for `key`, in linear sRGB or in bands: as [`Self::rejection`].
     ///
-    /// `key` identifies the file, the policies and the cells.
+    /// `key` identifies the file, the policies, the channels and the cells.
     pub fn grid(
         &self,
         key: u64,

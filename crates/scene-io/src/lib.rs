@@ -5,6 +5,7 @@
 //!
 //! - [`SceneFile`] -> [`build_scene`] -> [`BuiltScene`]: RON scenes to what the tracer renders.
 //! - [`material`]: measured files and models to materials.
+//! - [`spectral`]: scenes and films in other channels than linear sRGB.
 //! - [`image`], [`compare`]: EXR and PNG, and how far two pictures are apart.
 //! - [`rows`]: error against run time, as a render goes on.
 //! - [`converge`]: error against run time of several ways to render a scene.
@@ -23,6 +24,7 @@ pub mod mesh;
 pub mod rows;
 pub mod scene;
 pub mod sealed;
+pub mod spectral;
 pub mod survey;
 pub mod write;
 
@@ -34,7 +36,7 @@ mod error;
 mod fingerprint;
 mod overrides;
 
-pub use build::{BuiltScene, MaterialReport, Places, build_scene};
+pub use build::{BuiltScene, MaterialReport, Places, build_any_scene, build_scene};
 pub use cache::Cache;
 pub use compare::{Metrics, ZStatistics, compare};
 pub use data_dirs::DataDirs;

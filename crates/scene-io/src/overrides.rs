@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::scene::{
     FileMaterial, InterpolationName, MaterialSpec, ModelMaterial, PointsName, SamplerName,
-    SceneFile,
+    SceneFile, SpectrumName,
 };
 use std::path::PathBuf;
 
@@ -20,6 +20,8 @@ pub struct Overrides {
     pub spp: Option<u32>,
     /// Scattering vertices.
     pub depth: Option<u32>,
+    /// What the channels are.
+    pub spectrum: Option<SpectrumName>,
     /// Seed.
     pub seed: Option<u64>,
     /// Point set.
@@ -79,6 +81,7 @@ impl Overrides {
         let render = &mut scene.render;
         render.spp = self.spp.unwrap_or(render.spp).max(1);
         render.depth = self.depth.unwrap_or(render.depth);
+        render.spectrum = self.spectrum.unwrap_or(render.spectrum);
         render.seed = self.seed.unwrap_or(render.seed);
         render.points = self.points.unwrap_or(render.points);
         if let Some((width, height)) = self.size {

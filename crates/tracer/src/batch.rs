@@ -185,7 +185,8 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
                     .wrapping_mul(replicates)
                     .wrapping_add(sample % replicates);
                 self.index[slot] = sample / replicates;
-                self.tag[slot] = kernel.tag(self.stream[slot], self.index[slot]);
+                let tag = kernel.tag(self.stream[slot], self.index[slot]);
+                tag.put(&mut self.tag, slot);
                 slot += 1;
             }
         }
@@ -285,7 +286,7 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
             1.0
         };
         let slot = self.paths.slot[i] as usize;
-        let radiance = light.radiance(d, self.tag[slot]);
+        let radiance = light.radiance(d, S::Tag::of(&self.tag, slot));
         let slot = &mut self.slots[slot];
         for c in 0..N {
             slot[c] += self.paths.throughput[i][c] * radiance[c] * weight;
@@ -307,7 +308,7 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
             vertex.gather(&kernel.scene.geometry, &self.paths, &self.hits, which);
             let stream = vertex.slot.map(|s| self.stream[s as usize]);
             let index = vertex.slot.map(|s| self.index[s as usize]);
-            let tag = vertex.slot.map(|s| self.tag[s as usize]);
+            let tag = vertex.slot.map(|s| S::Tag::of(&self.tag, s as usize));
             let sampling = &mut self.samples[blocks];
             sampling.tag = tag;
             sampling.wo = vertex.wo;
@@ -548,9 +549,11 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
     {
         let pixels = tile.pixels().len();
         for (i, sample) in (samples.first..samples.first + samples.count).enumerate() {
-            let slots = i * pixels..(i + 1) * pixels;
-            let light = self.tag[slots.clone()].iter().zip(&self.slots[slots]);
-            tile.add(sample, light.map(|(tag, light)| mode.develop(*tag, light)));
+            let first = i * pixels;
+            let light = self.slots[first..first + pixels].iter().enumerate();
+            let light =
+                light.map(|(k, light)| mode.develop(S::Tag::of(&self.tag, first + k), light));
+            tile.add(sample, light);
         }
         tile.done = samples.first + samples.count;
     }

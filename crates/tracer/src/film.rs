@@ -212,7 +212,7 @@ impl<const N: usize> Tile<N> {
     }
 
     /// Coordinates of its pixels in the picture, row after row.
-    pub(crate) fn pixels(&self) -> impl ExactSizeIterator<Item = (u32, u32)> + use<N> {
+    pub fn pixels(&self) -> impl ExactSizeIterator<Item = (u32, u32)> + use<N> {
         let (x, y, width) = (self.x, self.y, self.width);
         (0..self.width * self.height).map(move |i| (x + i % width, y + i / width))
     }

@@ -15,6 +15,9 @@ use brdf::{LANES, Lanes3};
 
 type F32s = [f32; LANES];
 
+/// Up to this many channels a table is read for all lanes together, beyond it lane by lane.
+const GATHERED: usize = 4;
+
 /// What does not change from one packet to the next.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LaneLayout {
@@ -59,16 +62,12 @@ impl LaneLayout {
         wi: &Lanes3,
         wo: &Lanes3,
     ) -> [F32s; N] {
-        let (nodes, _) = nodes.as_chunks::<N>();
-        let mut out = match (how, self.layout.phi) {
-            (Interpolation::Nearest, phi) => {
-                gather_nearest(nodes, &self.nearest(&self.positions(wi, wo, phi)))
-            }
-            // the domain as a constant: three small specialised bodies instead of selects per lane
-            (Interpolation::Linear, PhiDomain::Reciprocal) => {
-                self.linear(nodes, &self.positions(wi, wo, PhiDomain::Reciprocal))
-            }
-            (Interpolation::Linear, phi) => self.linear(nodes, &self.positions(wi, wo, phi)),
+        let mut out = if N > GATHERED {
+            // lane by lane: the corners of all lanes together would not fit the registers, nor the first-level cache
+            let rows = self.rows::<N>(nodes, how, wi, wo);
+            std::array::from_fn(|c| std::array::from_fn(|k| rows[k][c]))
+        } else {
+            self.gathered(nodes, how, wi, wo)
         };
         for channel in &mut out {
             for k in 0..LANES {
@@ -77,6 +76,54 @@ impl LaneLayout {
             }
         }
         out
+    }
+
+    /// The interpolated node of each lane, `K` floats; anything finite where a direction is not above the horizon.
+    #[inline(always)]
+    pub(crate) fn rows<const K: usize>(
+        &self,
+        nodes: &[f32],
+        how: Interpolation,
+        wi: &Lanes3,
+        wo: &Lanes3,
+    ) -> [[f32; K]; LANES] {
+        let (nodes, _) = nodes.as_chunks::<K>();
+        match (how, self.layout.phi) {
+            (Interpolation::Nearest, phi) => {
+                let index = self.nearest(&self.positions(wi, wo, phi));
+                index.map(|node| nodes[node as usize])
+            }
+            (Interpolation::Linear, PhiDomain::Mirror) => {
+                let at = self.positions(wi, wo, PhiDomain::Mirror);
+                blend_rows(nodes, &self.layout, &self.stencils(&at))
+            }
+            (Interpolation::Linear, phi) => {
+                let at = self.positions(wi, wo, phi);
+                blend_rows(nodes, &self.layout, &self.stencils(&at))
+            }
+        }
+    }
+
+    /// Few channels: all lanes at once.
+    #[inline(always)]
+    fn gathered<const N: usize>(
+        &self,
+        nodes: &[f32],
+        how: Interpolation,
+        wi: &Lanes3,
+        wo: &Lanes3,
+    ) -> [F32s; N] {
+        let (nodes, _) = nodes.as_chunks::<N>();
+        match (how, self.layout.phi) {
+            (Interpolation::Nearest, phi) => {
+                gather_nearest(nodes, &self.nearest(&self.positions(wi, wo, phi)))
+            }
+            // the domain as a constant: three small specialised bodies instead of selects per lane
+            (Interpolation::Linear, PhiDomain::Reciprocal) => {
+                self.linear(nodes, &self.positions(wi, wo, PhiDomain::Reciprocal))
+            }
+            (Interpolation::Linear, phi) => self.linear(nodes, &self.positions(wi, wo, phi)),
+        }
     }
 
     /// Same formulas as [`crate::grid::lookup::angles`].
@@ -154,6 +201,35 @@ impl LaneLayout {
             (h + 1) * slab + (d + 1) * row + p + 1
         })
     }
+}
+
+/// Each lane's cube, row by row.
+#[inline(always)]
+fn blend_rows<const K: usize>(
+    nodes: &[[f32; K]],
+    layout: &Layout,
+    at: &LaneStencils,
+) -> [[f32; K]; LANES] {
+    let (slab, row) = (layout.slab(), layout.row());
+    let mut out = [[0.0; K]; LANES];
+    for k in 0..LANES {
+        let [t_h, t_d, t_p] = [at.t[0][k], at.t[1][k], at.t[2][k]];
+        let base = at.base[k] as usize;
+        let pairs = [
+            (base, (1.0 - t_h) * (1.0 - t_d)),
+            (base + row, (1.0 - t_h) * t_d),
+            (base + slab, t_h * (1.0 - t_d)),
+            (base + slab + row, t_h * t_d),
+        ];
+        for (start, weight) in pairs {
+            let pair = &nodes[start..start + 2];
+            let (low, high) = (weight * (1.0 - t_p), weight * t_p);
+            for c in 0..K {
+                out[k][c] += low * pair[0][c] + high * pair[1][c];
+            }
+        }
+    }
+    out
 }
 
 #[inline(always)]

@@ -13,15 +13,15 @@ use crate::output::say;
 use anyhow::{Context as _, Result};
 pub(crate) use args::Render;
 use report::Report;
-use scene_io::image::{Metadata, Picture, write_exr, write_png};
+use scene_io::image::{Metadata, Picture, write_exr, write_png, write_spectral_exr};
 use scene_io::rows::{Recorder, Row};
 use scene_io::scene::MaterialSpec;
-use scene_io::{BuiltScene, DEFAULT_SCENE, Overrides, SceneFile, build_scene};
+use scene_io::spectral::{AnyFilm, AnyScene};
+use scene_io::{BuiltScene, DEFAULT_SCENE, Overrides, SceneFile, build_any_scene};
 use std::num::NonZeroUsize;
 use std::path::Path;
 use std::time::Instant;
 use trace::{Aimed, trace};
-use tracer::Film;
 
 pub(crate) fn run(context: &Context, args: &Render) -> Result<()> {
     // hours of rendering must not end at a folder that does not exist
@@ -42,7 +42,7 @@ pub(crate) fn run(context: &Context, args: &Render) -> Result<()> {
         )?,
     };
     let start = Instant::now();
-    let mut built = build_scene(file, &overrides(args), &context.places)?;
+    let mut built = build_any_scene(file, &overrides(args), &context.places)?;
     built.settings.threads = args.threads.and_then(|t| NonZeroUsize::new(t.into()));
     let build_seconds = start.elapsed().as_secs_f64();
     for note in &built.notes {
@@ -67,6 +67,7 @@ fn overrides(args: &Render) -> Overrides {
             .map(|m| MaterialSpec::from_argument(&m.to_string_lossy())),
         interpolation: args.interpolation,
         sampler: args.sampler,
+        spectrum: args.spectrum,
         spp: args.spp,
         seed: args.seed,
         size: args.size,
@@ -76,7 +77,7 @@ fn overrides(args: &Render) -> Overrides {
 
 /// What a render left behind.
 struct Traced {
-    film: Film<3>,
+    film: AnyFilm,
     stats: tracer::Stats,
     seconds: f64,
     cpu_seconds: f64,
@@ -85,12 +86,17 @@ struct Traced {
     aimed: Option<Aimed>,
 }
 
-fn write(built: &BuiltScene, traced: &Traced, args: &Render, build_seconds: f64) -> Result<Report> {
+fn write(
+    built: &BuiltScene<AnyScene>,
+    traced: &Traced,
+    args: &Render,
+    build_seconds: f64,
+) -> Result<Report> {
     let report = Report::new(built, traced, args, build_seconds);
     if built.settings.shard.is_some() {
         return Ok(report);
     }
-    let mut picture = Picture::of_film(&traced.film)?;
+    let mut picture = Picture::of_film(&traced.film.rgb())?;
     picture.metadata = Metadata {
         scene: Some(report.scene.clone()),
         seed: Some(built.settings.seed),
@@ -99,11 +105,14 @@ fn write(built: &BuiltScene, traced: &Traced, args: &Render, build_seconds: f64)
         version: Some(env!("CARGO_PKG_VERSION").into()),
         sampler: Some(report.sampler.clone()),
     };
-    write_exr(&args.output, &picture)?;
+    match traced.film.spectral() {
+        Some(spectral) => write_spectral_exr(&args.output, &picture, &spectral)?,
+        None => write_exr(&args.output, &picture)?,
+    }
     let png = args.output.with_extension("png");
     write_png(&png, &picture, built.tone_map(&picture)).context("the EXR was written")?;
     if let Some(map) = &args.error_map {
-        error_map::write(map, &traced.film).context("the picture was written")?;
+        error_map::write(map, &traced.film.rgb()).context("the picture was written")?;
     }
     Ok(report)
 }

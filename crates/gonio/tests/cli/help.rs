@@ -8,7 +8,7 @@ fn help_texts() {
     insta::assert_snapshot!("gonio", bench.text("--help"));
     for verb in [
         "render", "merge", "info", "eval", "plot", "mix", "convert", "measure", "compare",
-        "converge",
+        "converge", "spectra",
     ] {
         let help = bench.text(&format!("{verb} --help"));
         assert!(

@@ -27,4 +27,6 @@ mod program;
 #[cfg(test)]
 mod rows;
 #[cfg(test)]
+mod spectra;
+#[cfg(test)]
 mod stopping;

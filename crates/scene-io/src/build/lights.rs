@@ -3,38 +3,49 @@
 use super::Places;
 use crate::error::Error;
 use crate::image::read_exr;
-use crate::scene::{Colour, LightSpec, SceneFile, plain};
+use crate::scene::{LightSpec, SceneFile, plain};
+use crate::spectral::Palette;
 use glam::{DMat3, DVec3};
-use spectrum::Samples;
-use tracer::{Environment, EnvironmentImage, PointLight};
+use tracer::{Environment, EnvironmentImage, Mode, PointLight};
 
-type Lights = (Vec<PointLight<Samples<3>>>, Option<Environment<Samples<3>>>);
+type Lights<E> = (Vec<PointLight<E>>, Option<Environment<E>>);
 
-pub(super) fn lights(file: &SceneFile, places: &Places) -> Result<Lights, Error> {
+pub(super) fn lights<const N: usize, P: Palette<N>>(
+    file: &SceneFile,
+    places: &Places,
+    palette: &P,
+) -> Result<Lights<<P::Mode as Mode<N>>::Emission>, Error> {
     let mut points = Vec::new();
     let mut environment = None;
     for (k, light) in file.lights.iter().enumerate() {
+        let in_light = |e: Error| e.in_field(&format!("lights[{k}]"));
         match light {
             LightSpec::Point {
                 position,
                 intensity,
+                spectrum,
             } => points.push(PointLight::Point {
                 position: DVec3::from(plain(*position)),
-                intensity: samples(*intensity),
+                intensity: palette
+                    .light(*intensity, spectrum.as_ref())
+                    .map_err(in_light)?,
             }),
             LightSpec::Directional {
                 direction,
                 irradiance,
+                spectrum,
             } => points.push(PointLight::Directional {
                 direction: DVec3::from(plain(*direction)),
-                irradiance: samples(*irradiance),
+                irradiance: palette
+                    .light(*irradiance, spectrum.as_ref())
+                    .map_err(in_light)?,
             }),
-            LightSpec::Constant { radiance } => {
-                environment = Some(Environment::Constant(samples(*radiance)));
+            LightSpec::Constant { radiance, spectrum } => {
+                let radiance = palette.light(*radiance, spectrum.as_ref());
+                environment = Some(Environment::Constant(radiance.map_err(in_light)?));
             }
             LightSpec::Image { .. } => {
-                let image =
-                    image(light, places).map_err(|e| e.in_field(&format!("lights[{k}]")))?;
+                let image = image(light, places, palette).map_err(in_light)?;
                 environment = image.map(Environment::Image);
             }
         }
@@ -42,14 +53,11 @@ pub(super) fn lights(file: &SceneFile, places: &Places) -> Result<Lights, Error>
     Ok((points, environment))
 }
 
-fn samples(c: Colour) -> Samples<3> {
-    Samples(c.0.map(|v| v as f32))
-}
-
-fn image(
+fn image<const N: usize, P: Palette<N>>(
     light: &LightSpec,
     places: &Places,
-) -> Result<Option<EnvironmentImage<Samples<3>>>, Error> {
+    palette: &P,
+) -> Result<Option<EnvironmentImage<<P::Mode as Mode<N>>::Emission>>, Error> {
     let LightSpec::Image {
         path,
         scale,
@@ -63,9 +71,10 @@ fn image(
     let picture = read_exr(&path)?;
     let factor = scale.map_or(1.0, |s| s.0 as f32);
     // Negative or undefined radiance has no meaning for a light.
-    let radiance = |p: &[f32; 3]| Samples(p.map(|v| if v > 0.0 { v * factor } else { 0.0 }));
-    let pixels: Vec<Samples<3>> = picture.pixels.iter().map(radiance).collect();
-    if let Some(k) = pixels.iter().position(|p| !p.is_finite()) {
+    let radiance = |p: &[f32; 3]| p.map(|v| if v > 0.0 { v * factor } else { 0.0 });
+    let pixels: Vec<[f32; 3]> = picture.pixels.iter().map(radiance).collect();
+    let finite = |p: &[f32; 3]| p.iter().all(|v| v.is_finite());
+    if let Some(k) = pixels.iter().position(|p| !finite(p)) {
         let (x, y) = (k % picture.width, k / picture.width);
         let message =
             format!("expected finite radiance, found an infinite one at pixel ({x}, {y})");
@@ -75,7 +84,7 @@ fn image(
     Ok(Some(EnvironmentImage {
         width: side(picture.width)?,
         height: side(picture.height)?,
-        pixels,
+        pixels: pixels.into_iter().map(|p| palette.pixel(p)).collect(),
         to_world: DMat3::from_rotation_y(turn_deg.map_or(0.0, |t| t.0.to_radians())),
     }))
 }

@@ -5,16 +5,16 @@ use super::materials::Index;
 use crate::error::Error;
 use crate::mesh::{self, Triangles};
 use crate::scene::{FormSpec, SceneFile, ShapeSpec, TransformSpec, plain};
+use crate::spectral::Palette;
 use glam::{DAffine3, DQuat, DVec2, DVec3};
-use spectrum::Samples;
 use tracer::{Mesh, Object, Shape};
 
-pub(super) fn objects(
+pub(super) fn objects<const N: usize, P: Palette<N>>(
     file: &SceneFile,
-    index: &Index,
+    (index, palette): (&Index, &P),
     places: &Places,
     notes: &mut Vec<String>,
-) -> Result<Vec<Object<3>>, Error> {
+) -> Result<Vec<Object<N, P::Mode>>, Error> {
     let mut out = Vec::new();
     for (k, spec) in file.shapes.iter().enumerate() {
         let field = format!("shapes[{k}]");
@@ -22,9 +22,11 @@ pub(super) fn objects(
         let material = index.get(&spec.material).copied().ok_or_else(|| {
             Error::invalid(format!("no material \"{}\"", spec.material)).in_field(&field)
         })?;
+        let light = |colour| palette.light(colour, spec.emission_spectrum.as_ref());
+        let emission = spec.emission.map(light).transpose();
         out.push(Object {
             transform: transform(&spec.transform),
-            emission: spec.emission.map(|c| Samples(c.0.map(|v| v as f32))),
+            emission: emission.map_err(|e| e.in_field(&field))?,
             one_sided: spec.one_sided,
             ..Object::new(shape, material)
         });

@@ -12,9 +12,9 @@ use std::io::Cursor;
 use std::path::Path;
 
 /// Largest EXR file, bytes: 2 GiB.
-const MAX_BYTES: u64 = 2 << 30;
-/// Most channels over all layers.
-const MAX_CHANNELS: usize = 64;
+pub(super) const MAX_BYTES: u64 = 2 << 30;
+/// Most channels over all layers: 65 bands, a colour and its variance leave room.
+const MAX_CHANNELS: usize = 128;
 
 /// Reads the first layer that holds an RGB (or grey, Y) picture; alpha and other channels are ignored.
 ///
@@ -30,17 +30,7 @@ pub fn read_exr(path: &Path) -> Result<Picture, Error> {
 /// # Errors
 /// As [`read_exr`].
 pub fn read_exr_bytes(bytes: &[u8]) -> Result<Picture, Error> {
-    // The header is checked before anything is allocated by its numbers.
-    let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(|e| broken(&e))?;
-    check_size(&meta)?;
-    let image: FlatImage = exr::prelude::read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .all_channels()
-        .all_layers()
-        .all_attributes()
-        .from_buffered(Cursor::new(bytes))
-        .map_err(|e| broken(&e))?;
+    let image = decode(bytes)?;
     image
         .layer_data
         .iter()
@@ -50,6 +40,21 @@ pub fn read_exr_bytes(bytes: &[u8]) -> Result<Picture, Error> {
                 "expected channels R, G, B or Y, found none of them",
             ))
         })
+}
+
+/// All layers and channels.
+pub(super) fn decode(bytes: &[u8]) -> Result<FlatImage, Error> {
+    // The header is checked before anything is allocated by its numbers.
+    let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(|e| broken(&e))?;
+    check_size(&meta)?;
+    exr::prelude::read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .all_layers()
+        .all_attributes()
+        .from_buffered(Cursor::new(bytes))
+        .map_err(|e| broken(&e))
 }
 
 fn check_size(meta: &MetaData) -> Result<(), Error> {

@@ -16,6 +16,16 @@ use std::path::Path;
 /// # Errors
 /// If the counts of the picture contradict each other, or the file cannot be written.
 pub fn write_exr(path: &Path, picture: &Picture) -> Result<(), Error> {
+    write(path, picture, std::iter::empty(), None)
+}
+
+/// The picture with `more` channels and attributes beside its own.
+pub(super) fn write(
+    path: &Path,
+    picture: &Picture,
+    more: impl Iterator<Item = AnyChannel<FlatSamples>>,
+    attribute: Option<(&str, AttributeValue)>,
+) -> Result<(), Error> {
     picture.check().map_err(|e| e.in_file(path))?;
     let mut channels = planes("", &picture.pixels);
     if let Some(variance) = &picture.variance {
@@ -23,7 +33,11 @@ pub fn write_exr(path: &Path, picture: &Picture) -> Result<(), Error> {
         let error: Vec<_> = variance.iter().map(|v| v.map(f32::sqrt)).collect();
         channels.extend(planes("error.", &error));
     }
+    channels.extend(more);
     let mut attributes = LayerAttributes::default();
+    attributes
+        .other
+        .extend(attribute.map(|(name, value)| (Text::from(name), value)));
     attributes.other.extend(
         texts(&picture.metadata)
             .into_iter()

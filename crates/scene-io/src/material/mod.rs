@@ -22,6 +22,7 @@ pub use options::MaterialOptions;
 pub use pair::SamplerReport;
 pub(crate) use pair::{Visitor, luminance};
 pub use surface::Surface;
+pub(crate) use surface::SurfaceForm;
 
 use crate::cache::Cache;
 use crate::error::Error;

@@ -11,9 +11,10 @@ use crate::cache::{Cache, combine};
 use crate::error::Error;
 use crate::scene::{InterpolationName, MaterialSpec, SamplerName};
 use crate::sealed::content_hash;
-use brdf::{Brdf, Material, Measured, Status, Symmetry};
+use crate::spectral;
+use brdf::{Brdf, DirectionSampler, Material, Measured, Paired, Status, Symmetry};
 use brdf_measure::MERL_DIMS;
-use brdf_models::{Built, ParsedModel, parse_model};
+use brdf_models::{Built, Lambert, ParsedModel, parse_model};
 use brdf_table::scattered::DEFAULT_DIMS;
 use brdf_table::{
     GriddedN, HalfDiffTable, Interpolation, PhiDomain, RglN, RglTable, ThinPlate, resample,
@@ -36,6 +37,12 @@ enum Form3 {
     /// With its full text, which is all its values depend on.
     Model(Built<3>, String),
     Native(Native),
+}
+
+/// What a surface in linear sRGB is made of.
+pub(crate) enum SurfaceForm<'a> {
+    Grid(&'a GriddedN<3>),
+    Brdf(Arc<dyn Brdf<3>>),
 }
 
 impl fmt::Debug for Surface {
@@ -98,7 +105,15 @@ impl Surface {
                 let options = MaterialOptions::of_model(m, without);
                 (Self::of_measured_model(&m.model, &options)?, None)
             }
-            MaterialSpec::Lambert { reflectance } => {
+            MaterialSpec::Lambert {
+                reflectance,
+                spectrum: Some(rows),
+            } => {
+                let spectrum = spectral::reflectance(rows)?.scaled(reflectance.0[0]);
+                let rgb = srgb().project(&spectrum);
+                (Self::constant(std::array::from_fn(|c| rgb[c])), None)
+            }
+            MaterialSpec::Lambert { reflectance, .. } => {
                 let [r, g, b] = reflectance.0;
                 let text = format!("lambert:kd={r}/{g}/{b}");
                 (Self::of_model(&text, &MaterialOptions::default())?, None)
@@ -173,6 +188,61 @@ impl Surface {
         });
         let notes = parts.iter().flat_map(|(s, _)| s.notes.clone()).collect();
         Self::grid(Arc::new(table), Interpolation::Linear, notes)
+    }
+
+    /// The same albedo in all directions; out of gamut, it may be negative.
+    pub(crate) fn constant(albedo: [f64; 3]) -> Self {
+        let lambert = Arc::new(Lambert { albedo });
+        let built = Built {
+            brdf: Arc::clone(&lambert) as Arc<dyn Brdf<3>>,
+            sampler: Arc::clone(&lambert) as Arc<dyn DirectionSampler>,
+            material: Box::new(Paired {
+                brdf: Arc::clone(&lambert),
+                sampler: lambert,
+            }),
+        };
+        let [r, g, b] = albedo;
+        let text = format!("lambert:kd={r}/{g}/{b}");
+        Self {
+            notes: vec![text.clone()],
+            form: Form3::Model(built, text),
+        }
+    }
+
+    /// A table in linear sRGB.
+    pub(crate) fn of_table(
+        table: HalfDiffTable,
+        interpolation: Interpolation,
+        notes: Vec<String>,
+    ) -> Result<Self, Error> {
+        Self::grid(Arc::new(table), interpolation, notes)
+    }
+
+    /// A measured file as cells in its own channels, if it is rendered as cells.
+    ///
+    /// The grid of a thin plate is kept in `cache`.
+    pub(crate) fn native_grid(
+        loaded: &LoadedMeasured,
+        cache: &Cache,
+    ) -> Option<(Arc<HalfDiffTable>, Interpolation, Vec<String>)> {
+        let mut notes = loaded.notes();
+        match &loaded.form {
+            Form::Grid(grid) => Some((Arc::clone(&grid.table), grid.interpolation, notes)),
+            Form::ThinPlate(plate, key) => {
+                let table = resampled(plate, (*key, cache), &mut notes);
+                Some((Arc::new(table), Interpolation::Linear, notes))
+            }
+            Form::Rgl(..) | Form::Opaque(_) => None,
+        }
+    }
+
+    /// What it is made of.
+    pub(crate) fn form(&self) -> SurfaceForm<'_> {
+        match &self.form {
+            Form3::Grid(grid) => SurfaceForm::Grid(grid),
+            Form3::Model(model, _) => SurfaceForm::Brdf(Arc::clone(&model.brdf)),
+            Form3::Native(native) => SurfaceForm::Brdf(Arc::clone(&native.brdf)),
+        }
     }
 
     fn rgl(
@@ -306,9 +376,19 @@ fn from_plate(
     let plate = plate
         .to_basis(srgb(), &matrix)
         .map_err(|e| Error::invalid(e.to_string()))?;
+    Ok(resampled(&plate, (key, cache), notes))
+}
+
+/// A thin plate on its grid, in the channels it has.
+fn resampled(
+    plate: &ThinPlate,
+    (key, cache): (u64, &Cache),
+    notes: &mut Vec<String>,
+) -> HalfDiffTable {
     let [n_h, n_d, n_p] = DEFAULT_DIMS.map(|n| n as u64);
-    let resampled = cache.grid(combine(&[key, n_h, n_d, n_p]), notes, || {
-        resample(&plate, plate.domain(), DEFAULT_DIMS)
+    let channels = content_hash(format!("{:?}", plate.basis()).as_bytes());
+    let resampled = cache.grid(combine(&[key, channels, n_h, n_d, n_p]), notes, || {
+        resample(plate, plate.domain(), DEFAULT_DIMS)
     });
     notes.push(format!(
         "resampled onto {} x {} x {} cells, RMS error {:.2} % of the mean",
@@ -317,7 +397,7 @@ fn from_plate(
         DEFAULT_DIMS[2],
         100.0 * resampled.relative_error()
     ));
-    Ok(resampled.table)
+    resampled.table
 }
 
 fn scaled(table: Arc<HalfDiffTable>, scale: [f64; 3]) -> Result<Arc<HalfDiffTable>, Error> {

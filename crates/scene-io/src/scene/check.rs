@@ -1,8 +1,11 @@
 //! What no single number shows: names that must exist, lengths that must not vanish, products that must fit.
 
-use super::checked::{Colour, plain};
+use super::checked::{Colour, Radiometric, Wavelength, plain};
+use super::names::SpectrumName;
 use super::resolve::{CameraSpec, SceneFile};
-use super::schema::{FilterSpec, FormSpec, LightSpec, MaterialSpec, ShapeSpec, TransformSpec};
+use super::schema::{
+    FilterSpec, FormSpec, LightSpec, LightSpectrum, MaterialSpec, ShapeSpec, TransformSpec,
+};
 use crate::error::Error;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -11,19 +14,21 @@ use std::collections::BTreeMap;
 const MAX_PIXELS: u64 = 1 << 26;
 /// Most memory of a film's sums: 8 GiB.
 const MAX_FILM_BYTES: u64 = 8 << 30;
-/// A film keeps the sums of this many independent parts of its samples, f64 RGB each, to know its error.
+/// A film keeps the sums of this many independent parts of its samples, f64 a channel, to know its error.
 const REPLICATES: u64 = 8;
 /// Most shapes of a scene.
 const MAX_SHAPES: usize = 1_000_000;
 /// Most points of a lathe profile.
 const MAX_PROFILE: usize = 1000;
-/// Spectra that are planned; naming one is not a mistake, only too early.
-const PLANNED_SPECTRA: [&str; 4] = ["bins8", "bins16", "bins45", "hero"];
 
 pub(super) fn scene(scene: &SceneFile) -> Result<(), Error> {
     camera(&scene.camera).map_err(|e| e.in_field("camera"))?;
     film(scene).map_err(|e| e.in_field("film"))?;
-    spectrum(&scene.render.spectrum).map_err(|e| e.in_field("render.spectrum"))?;
+    let [from, to] = scene.render.range_nm;
+    if from >= to {
+        let message = format!("expected two ascending wavelengths, found {from} and {to}");
+        return Err(Error::invalid(message).in_field("render.range_nm"));
+    }
     if let Some(name) = &scene.main_material {
         known(name, &scene.materials).map_err(|e| e.in_field("main_material"))?;
     }
@@ -47,6 +52,22 @@ pub(super) fn scene(scene: &SceneFile) -> Result<(), Error> {
             not_zero(DVec3::from(plain(*direction)))
                 .map_err(|e| e.in_field(&format!("lights[{k}].direction")))?;
         }
+        let (colour, spectrum) = match light {
+            LightSpec::Point {
+                intensity,
+                spectrum,
+                ..
+            } => (*intensity, spectrum.as_ref()),
+            LightSpec::Directional {
+                irradiance,
+                spectrum,
+                ..
+            } => (*irradiance, spectrum.as_ref()),
+            LightSpec::Constant { radiance, spectrum } => (*radiance, spectrum.as_ref()),
+            LightSpec::Image { .. } => (Colour([1.0; 3]), None),
+        };
+        light_spectrum(colour, spectrum)
+            .map_err(|e| e.in_field(&format!("lights[{k}].spectrum")))?;
         let environment = matches!(light, LightSpec::Constant { .. } | LightSpec::Image { .. });
         surrounding += usize::from(environment);
     }
@@ -80,7 +101,14 @@ fn film(scene: &SceneFile) -> Result<(), Error> {
             scene.film.width, scene.film.height
         )));
     }
-    let bytes = pixels * REPLICATES.min(u64::from(scene.render.spp).max(1)) * 24;
+    let channels = match scene.render.spectrum {
+        SpectrumName::Rgb | SpectrumName::Xyz | SpectrumName::Hero => 3,
+        SpectrumName::Eight => 8,
+        SpectrumName::Sixteen => 16,
+        SpectrumName::FortyFive => 45,
+        SpectrumName::Native => 65,
+    };
+    let bytes = pixels * REPLICATES.min(u64::from(scene.render.spp).max(1)) * 8 * channels;
     if bytes > MAX_FILM_BYTES {
         return Err(Error::invalid(format!(
             "expected a film of at most {} GiB, found {} x {} pixels of {} bytes ({:.1} GiB)",
@@ -103,16 +131,22 @@ fn film(scene: &SceneFile) -> Result<(), Error> {
     Ok(())
 }
 
-fn spectrum(name: &str) -> Result<(), Error> {
-    match name {
-        "rgb" => Ok(()),
-        planned if PLANNED_SPECTRA.contains(&planned) => Err(Error::unsupported(format!(
-            "\"{planned}\" is not supported yet; only \"rgb\" is"
-        ))),
-        other => Err(Error::invalid(format!(
-            "expected \"rgb\", found \"{other}\""
-        ))),
+/// A light with a spectrum has one number for its brightness, and the spectrum is one.
+fn light_spectrum(colour: Colour, spectrum: Option<&LightSpectrum>) -> Result<(), Error> {
+    let Some(spectrum) = spectrum else {
+        return Ok(());
+    };
+    if colour
+        .0
+        .iter()
+        .any(|c| c.to_bits() != colour.0[0].to_bits())
+    {
+        let [r, g, b] = colour.0;
+        return Err(Error::invalid(format!(
+            "expected one number for the brightness of a spectrum, found ({r}, {g}, {b})"
+        )));
     }
+    crate::spectral::check_light(spectrum)
 }
 
 fn known(name: &str, materials: &BTreeMap<String, MaterialSpec>) -> Result<(), Error> {
@@ -135,7 +169,10 @@ fn material(
         MaterialSpec::File(file) if file.path.as_os_str().is_empty() => {
             Err(Error::invalid("expected a file name, found \"\"").in_field("path"))
         }
-        MaterialSpec::Lambert { reflectance } => albedo(*reflectance),
+        MaterialSpec::Lambert {
+            reflectance,
+            spectrum,
+        } => albedo(*reflectance, spectrum.as_deref()),
         MaterialSpec::Mix(mix) => {
             if mix.parts.is_empty() {
                 return Err(
@@ -156,7 +193,15 @@ fn material(
     }
 }
 
-fn albedo(colour: Colour) -> Result<(), Error> {
+fn albedo(colour: Colour, spectrum: Option<&[(Wavelength, Radiometric)]>) -> Result<(), Error> {
+    if let Some(rows) = spectrum {
+        light_spectrum(colour, Some(&LightSpectrum::Table(rows.to_vec())))
+            .map_err(|e| e.in_field("spectrum"))?;
+        if let Some((nm, v)) = rows.iter().find(|(_, v)| v.0 * colour.0[0] > 1.0) {
+            let message = format!("expected albedos from 0 to 1, found {} at {} nm", v.0, nm.0);
+            return Err(Error::invalid(message).in_field("spectrum"));
+        }
+    }
     match colour.0.into_iter().find(|&c| c > 1.0) {
         Some(c) => Err(
             Error::invalid(format!("expected an albedo from 0 to 1, found {c}"))
@@ -173,6 +218,11 @@ fn shape(spec: &ShapeSpec, materials: &BTreeMap<String, MaterialSpec>) -> Result
         let message = "expected a Sphere or Quad to carry it, found a mesh";
         return Err(Error::unsupported(message).in_field("emission"));
     }
+    light_spectrum(
+        spec.emission.unwrap_or(Colour([1.0; 3])),
+        spec.emission_spectrum.as_ref(),
+    )
+    .map_err(|e| e.in_field("emission_spectrum"))?;
     match &spec.form {
         FormSpec::Quad { edge_u, edge_v, .. } => {
             let normal = DVec3::from(plain(*edge_u)).cross(DVec3::from(plain(*edge_v)));

@@ -76,6 +76,14 @@ checked!(
     |v| (0.0..=1000.0).contains(&v) && v.fract() == 0.0
 );
 checked!(
+    /// A wavelength in nm.
+    Wavelength(f64, identity), "a wavelength from 100 to 10000 nm", |v| (100.0..=10_000.0).contains(&v)
+);
+checked!(
+    /// A temperature in K.
+    Kelvin(f64, identity), "a temperature from 500 to 100000 K", |v| (500.0..=100_000.0).contains(&v)
+);
+checked!(
     /// Segments around a surface of revolution.
     Segments(u32, whole), "a whole number of segments from 3 to 4096",
     |v| (3.0..=4096.0).contains(&v) && v.fract() == 0.0

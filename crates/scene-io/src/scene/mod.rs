@@ -9,12 +9,14 @@ mod schema;
 mod unique_map;
 
 pub use checked::{
-    Colour, Coordinate, Degrees, Depth, FieldOfView, MAX_COORDINATE, MAX_RADIANCE, Point, Positive,
-    Radiometric, SampleCount, Segments, Side, Weight, plain,
+    Colour, Coordinate, Degrees, Depth, FieldOfView, Kelvin, MAX_COORDINATE, MAX_RADIANCE, Point,
+    Positive, Radiometric, SampleCount, Segments, Side, Wavelength, Weight, plain,
 };
-pub use names::{BeyondName, GapName, InterpolationName, NegativeName, PointsName, SamplerName};
+pub use names::{
+    BeyondName, GapName, InterpolationName, NegativeName, PointsName, SamplerName, SpectrumName,
+};
 pub use resolve::{CameraSpec, FilmSpec, RenderSpec, SceneFile};
 pub use schema::{
-    ExposureSpec, FileMaterial, FilterSpec, FormSpec, LightSpec, MaterialSpec, MixMaterial,
-    ModelMaterial, ShapeSpec, TransformSpec,
+    ExposureSpec, FileMaterial, FilterSpec, FormSpec, LightSpec, LightSpectrum, MaterialSpec,
+    MixMaterial, ModelMaterial, ShapeSpec, TransformSpec,
 };

@@ -134,6 +134,26 @@ names!(
 );
 
 names!(
+    /// What the channels of a render are.
+    SpectrumName, "a spectrum" {
+        /// Linear sRGB.
+        Rgb = "rgb",
+        /// CIE XYZ relative to white.
+        Xyz = "xyz",
+        /// Eight bins from 380 to 720 nm.
+        Eight = "8",
+        /// Sixteen bins.
+        Sixteen = "16",
+        /// Forty-five bins.
+        FortyFive = "45",
+        /// The bands of the main material's file, 31 or 65.
+        Native = "native",
+        /// Eight wavelengths a path, others on each.
+        Hero = "hero",
+    }
+);
+
+names!(
     /// The points that drive the random decisions.
     PointsName, "a point set" {
         /// Owen-scrambled Sobol' points.

@@ -1,7 +1,7 @@
 //! Laying a scene over its bases and filling in defaults.
 
 use super::checked::{Depth, FieldOfView, Point, SampleCount, Side, plain};
-use super::names::{PointsName, SamplerName};
+use super::names::{PointsName, SamplerName, SpectrumName};
 use super::schema::{
     CameraDoc, ExposureSpec, FilmDoc, FilterSpec, FormSpec, LightSpec, MaterialSpec, RenderDoc,
     SceneDoc, ShapeSpec,
@@ -11,6 +11,10 @@ use crate::error::{Error, ErrorKind};
 use crate::load;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+
+/// What 8, 16 and 45 bins divide unless a scene says otherwise: of the ranges tried, the one that leaves Cornell's
+/// paints and smooth reflectances alike the least colour difference in 8 (docs/spectral.md).
+const RANGE_NM: [f64; 2] = [410.0, 690.0];
 
 /// Bases of bases beyond this are taken for a circle.
 const MAX_BASES: usize = 8;
@@ -65,7 +69,7 @@ pub struct FilmSpec {
 }
 
 /// How to render.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct RenderSpec {
     /// Samples a pixel.
     pub spp: u32,
@@ -75,8 +79,10 @@ pub struct RenderSpec {
     pub roulette: Option<u32>,
     /// Seed of every random decision.
     pub seed: u64,
-    /// Only `rgb` so far.
-    pub spectrum: String,
+    /// What the channels are.
+    pub spectrum: SpectrumName,
+    /// The range that fixed bins divide, nm; the outermost go on beyond it.
+    pub range_nm: [f64; 2],
     /// For materials that name none themselves.
     pub sampler: SamplerName,
     /// Point set.
@@ -198,6 +204,7 @@ fn over_base(doc: SceneDoc, home: &Path, depth: usize) -> Result<SceneDoc, Error
             roulette: doc.render.roulette.or(render.roulette),
             seed: doc.render.seed.or(render.seed),
             spectrum: doc.render.spectrum.or(render.spectrum),
+            range_nm: doc.render.range_nm.or(render.range_nm),
             sampler: doc.render.sampler.or(render.sampler),
             points: doc.render.points.or(render.points),
         },
@@ -239,7 +246,8 @@ fn render(doc: RenderDoc) -> RenderSpec {
         depth: doc.depth.unwrap_or(Depth(5)).0,
         roulette: doc.roulette.map(|d| d.0),
         seed: doc.seed.unwrap_or(0),
-        spectrum: doc.spectrum.unwrap_or_else(|| "rgb".into()),
+        spectrum: doc.spectrum.unwrap_or(SpectrumName::Rgb),
+        range_nm: doc.range_nm.map_or(RANGE_NM, |(from, to)| [from.0, to.0]),
         sampler: doc.sampler.unwrap_or(SamplerName::Auto),
         points: doc.points.unwrap_or(PointsName::Sobol),
     }

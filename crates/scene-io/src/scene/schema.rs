@@ -3,10 +3,12 @@
 //! These structs belong to files alone; nothing below this crate knows them.
 
 use super::checked::{
-    Colour, Coordinate, Degrees, Depth, FieldOfView, Point, Positive, SampleCount, Segments, Side,
-    Weight,
+    Colour, Coordinate, Degrees, Depth, FieldOfView, Kelvin, Point, Positive, Radiometric,
+    SampleCount, Segments, Side, Wavelength, Weight,
 };
-use super::names::{BeyondName, GapName, InterpolationName, NegativeName, PointsName, SamplerName};
+use super::names::{
+    BeyondName, GapName, InterpolationName, NegativeName, PointsName, SamplerName, SpectrumName,
+};
 use super::unique_map::UniqueMap;
 use serde::Deserialize;
 use std::path::PathBuf;
@@ -51,7 +53,8 @@ pub(crate) struct RenderDoc {
     pub depth: Option<Depth>,
     pub roulette: Option<Depth>,
     pub seed: Option<u64>,
-    pub spectrum: Option<String>,
+    pub spectrum: Option<SpectrumName>,
+    pub range_nm: Option<(Wavelength, Wavelength)>,
     pub sampler: Option<SamplerName>,
     pub points: Option<PointsName>,
 }
@@ -95,8 +98,11 @@ pub enum MaterialSpec {
     Mix(MixMaterial),
     /// An ideal diffuse reflector.
     Lambert {
-        /// Albedo per channel, at most 1.
+        /// Albedo per channel, at most 1; a factor on `spectrum`, where that is given.
         reflectance: Colour,
+        /// (nm, albedo) in ascending order, linear in between and flat beyond.
+        #[serde(default)]
+        spectrum: Option<Vec<(Wavelength, Radiometric)>>,
     },
 }
 
@@ -168,6 +174,9 @@ pub struct ShapeSpec {
     /// Radiance it sends out on its front side: makes it a light (spheres and quads).
     #[serde(default)]
     pub emission: Option<Colour>,
+    /// The spectrum of that light, `emission` being one number, its luminance; daylight if not said.
+    #[serde(default)]
+    pub emission_spectrum: Option<LightSpectrum>,
     /// Whether its back is black; otherwise both sides reflect alike.
     #[serde(default)]
     pub one_sided: bool,
@@ -242,6 +251,18 @@ pub enum TransformSpec {
     Scale([Positive; 3]),
 }
 
+/// The shape of a light's spectrum; how bright it is stands beside it.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(rename = "Spectrum", deny_unknown_fields)]
+pub enum LightSpectrum {
+    /// One of CIE's, by name: A, C, D50, D65, E, F2, F11.
+    Illuminant(String),
+    /// A blackbody of this temperature, K.
+    Blackbody(Kelvin),
+    /// (nm, power) in ascending order, linear in between and nothing beyond.
+    Table(Vec<(Wavelength, Radiometric)>),
+}
+
 /// One light that is not a surface.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(rename = "Light", deny_unknown_fields)]
@@ -252,6 +273,9 @@ pub enum LightSpec {
         position: Point,
         /// W/sr per channel.
         intensity: Colour,
+        /// Its spectrum, `intensity` being one number.
+        #[serde(default)]
+        spectrum: Option<LightSpectrum>,
     },
     /// Parallel light.
     Directional {
@@ -259,11 +283,17 @@ pub enum LightSpec {
         direction: Point,
         /// On a surface facing it, W/m^2 per channel.
         irradiance: Colour,
+        /// Its spectrum, `irradiance` being one number.
+        #[serde(default)]
+        spectrum: Option<LightSpectrum>,
     },
     /// The same radiance from everywhere.
     Constant {
         /// Radiance.
         radiance: Colour,
+        /// Its spectrum, `radiance` being one number.
+        #[serde(default)]
+        spectrum: Option<LightSpectrum>,
     },
     /// Radiance from a latitude-longitude EXR image.
     Image {

@@ -11,3 +11,4 @@ mod pictures;
 mod real_files;
 mod rendered;
 mod scenes;
+mod spectral;

@@ -179,7 +179,7 @@ fn mistakes_of_meaning_name_their_field() {
         ),
         (
             "render: (spectrum: \"bins8\")",
-            "render.spectrum: \"bins8\" is not supported yet; only \"rgb\" is",
+            "3:23: render.spectrum: expected a spectrum (rgb, xyz, 8, 16, 45, native, hero), found \"bins8\"",
         ),
         (
             "main_material: \"m\"",

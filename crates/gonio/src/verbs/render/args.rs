@@ -3,7 +3,7 @@
 use super::strategy::LightStrategy;
 use crate::args::{parse_exr, parse_size, with_ending};
 use clap::Args;
-use scene_io::scene::{InterpolationName, SamplerName};
+use scene_io::scene::{InterpolationName, SamplerName, SpectrumName};
 use std::path::PathBuf;
 use tracer::Shard;
 
@@ -36,6 +36,9 @@ pub(crate) struct Render {
     /// Worker threads; all cores by default.
     #[arg(long, value_name = "T", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
+    /// What the channels are: rgb, xyz, 8, 16, 45, native or hero.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) spectrum: Option<SpectrumName>,
     /// How directions are chosen on measured materials.
     #[arg(long, value_name = "NAME")]
     pub(crate) sampler: Option<SamplerName>,

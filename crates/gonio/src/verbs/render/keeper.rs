@@ -3,8 +3,9 @@
 use super::Render;
 use crate::output::say;
 use anyhow::{Result, bail};
-use scene_io::checkpoint::{self, About};
+use scene_io::checkpoint::About;
 use scene_io::scene::ExposureSpec;
+use scene_io::spectral::{AnyFilm, AnyScene};
 use scene_io::{BuiltScene, Places, fingerprint};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -19,7 +20,12 @@ pub(super) struct Keeper {
 }
 
 impl Keeper {
-    pub(super) fn new(path: &Path, args: &Render, built: &BuiltScene, places: &Places) -> Self {
+    pub(super) fn new(
+        path: &Path,
+        args: &Render,
+        built: &BuiltScene<AnyScene>,
+        places: &Places,
+    ) -> Self {
         let exposure = match built.exposure {
             ExposureSpec::Auto => None,
             ExposureSpec::Scale(scale) => Some(scale.0 as f32),
@@ -40,12 +46,12 @@ impl Keeper {
     }
 
     /// Takes up what the file holds, if there is one; otherwise sees whether it can be written.
-    pub(super) fn restore<const N: usize>(&self, film: &mut Film<N>) -> Result<()> {
+    pub(super) fn restore(&self, film: &mut AnyFilm) -> Result<()> {
         if !self.path.exists() {
             return Ok(scene_io::write::check(&self.path)?);
         }
         let mut found = film.clone();
-        let about = checkpoint::restore(&self.path, &mut found, self.key)?;
+        let about = found.restore(&self.path, self.key)?;
         if about.shard != self.about.shard {
             bail!(
                 "{}: expected {}, found {}",
@@ -54,7 +60,8 @@ impl Keeper {
                 part(about.shard)
             );
         }
-        let most = found.tiles().iter().map(tracer::Tile::done).max();
+        let sums = found.rgb();
+        let most = sums.tiles().iter().map(tracer::Tile::done).max();
         let most = most.unwrap_or_default();
         if most > self.about.spp {
             bail!(
@@ -66,15 +73,16 @@ impl Keeper {
         say(format_args!(
             "going on from {}: {} of {} samples a pixel",
             self.path.display(),
-            least(&found, self.about.shard),
+            least(&sums, self.about.shard),
             self.about.spp
         ));
+        drop(sums);
         *film = found;
         Ok(())
     }
 
-    pub(super) fn save<const N: usize>(&self, film: &Film<N>) -> Result<()> {
-        Ok(checkpoint::save(&self.path, film, &self.about, self.key)?)
+    pub(super) fn save(&self, film: &AnyFilm) -> Result<()> {
+        Ok(film.save(&self.path, &self.about, self.key)?)
     }
 }
 

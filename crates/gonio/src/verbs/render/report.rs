@@ -5,6 +5,7 @@ use super::{Render, Traced, strategy};
 use crate::output::say;
 use scene_io::BuiltScene;
 use scene_io::rows::{CONFIDENCE, Row};
+use scene_io::spectral::AnyScene;
 use serde::Serialize;
 use std::fmt::{self, Write};
 use std::path::PathBuf;
@@ -80,19 +81,20 @@ pub(super) struct Report {
 
 impl Report {
     pub(super) fn new(
-        built: &BuiltScene,
+        built: &BuiltScene<AnyScene>,
         traced: &Traced,
         args: &Render,
         build_seconds: f64,
     ) -> Self {
-        let estimate = traced.film.estimate(CONFIDENCE);
+        let film = traced.film.rgb();
+        let estimate = film.estimate(CONFIDENCE);
         let known = estimate.rel_rmse.is_finite();
         Self {
             written: written(built, args),
             scene: built.file.path.display().to_string(),
             sampler: sampler(built),
-            spectrum: "rgb",
-            spp: traced.film.samples() / u64::from(built.size.0 * built.size.1).max(1),
+            spectrum: built.file.render.spectrum.name(),
+            spp: film.samples() / u64::from(built.size.0 * built.size.1).max(1),
             seconds: traced.seconds,
             cpu_seconds: traced.cpu_seconds,
             build_seconds,
@@ -178,12 +180,12 @@ impl Report {
 }
 
 /// Name of the sampler of the main material.
-pub(super) fn sampler(built: &BuiltScene) -> String {
+pub(super) fn sampler(built: &BuiltScene<AnyScene>) -> String {
     let main = built.materials.first();
     main.map_or_else(|| "none".into(), |m| m.sampler.name.to_string())
 }
 
-fn written(built: &BuiltScene, args: &Render) -> Vec<PathBuf> {
+fn written(built: &BuiltScene<AnyScene>, args: &Render) -> Vec<PathBuf> {
     let png = args.output.with_extension("png");
     let mut all: Vec<_> = args.checkpoint.iter().collect();
     if built.settings.shard.is_none() {
@@ -194,14 +196,14 @@ fn written(built: &BuiltScene, args: &Render) -> Vec<PathBuf> {
 }
 
 /// What the scene and its files do not use, and what the tracer then does without.
-fn left_out(built: &BuiltScene) -> Vec<String> {
+fn left_out(built: &BuiltScene<AnyScene>) -> Vec<String> {
     let traced = built.scene.left_out(&built.settings);
     let traced = traced.iter().map(ToString::to_string);
     built.left_out.iter().cloned().chain(traced).collect()
 }
 
 /// What was built, and what was not.
-pub(super) fn explain(built: &BuiltScene, build_seconds: f64) {
+pub(super) fn explain(built: &BuiltScene<AnyScene>, build_seconds: f64) {
     say(format_args!("built in {build_seconds:.3} s:"));
     for material in &built.materials {
         let file = material

@@ -4,6 +4,7 @@ use crate::output::say;
 use anyhow::Result;
 use clap::ValueEnum;
 use scene_io::BuiltScene;
+use scene_io::spectral::AnyScene;
 use tracer::{Strategy, Trial};
 
 /// How light is found.
@@ -23,15 +24,17 @@ pub(crate) enum LightStrategy {
 }
 
 /// Puts the strategy into the settings; what the pilot found, if there was one.
-pub(super) fn settle(built: &mut BuiltScene, asked: LightStrategy) -> Result<Option<[Trial; 2]>> {
+pub(super) fn settle(
+    built: &mut BuiltScene<AnyScene>,
+    asked: LightStrategy,
+) -> Result<Option<[Trial; 2]>> {
     built.settings.strategy = match asked {
         LightStrategy::Mis => Strategy::Mis,
         LightStrategy::Ris => Strategy::Ris,
         LightStrategy::Light => Strategy::LightOnly,
         LightStrategy::Bsdf => Strategy::BsdfOnly,
         LightStrategy::Auto => {
-            let (better, trials) =
-                tracer::choose_strategy(&built.scene, &built.settings, built.size)?;
+            let (better, trials) = built.scene.choose_strategy(&built.settings, built.size)?;
             built.settings.strategy = better;
             return Ok(Some(trials));
         }
@@ -50,7 +53,7 @@ pub(super) fn name(strategy: Strategy) -> &'static str {
 }
 
 /// Which it is, and why.
-pub(super) fn explain(built: &BuiltScene, trials: Option<[Trial; 2]>) {
+pub(super) fn explain(built: &BuiltScene<AnyScene>, trials: Option<[Trial; 2]>) {
     let name_of = |t: &Trial| name(t.strategy);
     let chosen = name(built.settings.strategy);
     match trials {

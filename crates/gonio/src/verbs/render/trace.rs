@@ -8,6 +8,7 @@ use crate::verbs::Context;
 use anyhow::{Result, bail};
 use scene_io::BuiltScene;
 use scene_io::rows::Recorder;
+use scene_io::spectral::{AnyFilm, AnyScene};
 use std::time::Instant;
 use tracer::{Choice, Film, Settings, Stats, Target};
 
@@ -28,7 +29,7 @@ pub(super) struct Aimed {
 }
 
 pub(super) fn trace(
-    built: &mut BuiltScene,
+    built: &mut BuiltScene<AnyScene>,
     context: &Context,
     args: &Render,
     recorder: Recorder,
@@ -47,7 +48,13 @@ pub(super) fn trace(
     } else {
         REPLICATES.min(built.settings.spp.max(1))
     };
-    let mut film = Film::<3>::new(width, height, replicates);
+    let mut film = built.scene.film([width, height], replicates);
+    if args.shard.is_some() && !matches!(film, AnyFilm::Rgb(_)) {
+        bail!(
+            "expected the spectrum rgb or hero for --shard, found {}",
+            built.file.render.spectrum.name()
+        );
+    }
     let keeper =
         (args.checkpoint.as_ref()).map(|path| Keeper::new(path, args, built, &context.places));
     if let Some(keeper) = &keeper {
@@ -74,71 +81,81 @@ pub(super) fn trace(
 
 /// All samples that were asked for, with pauses to keep what there is.
 fn samples(
-    built: &BuiltScene,
-    film: &mut Film<3>,
+    built: &BuiltScene<AnyScene>,
+    film: &mut AnyFilm,
     watch: &Watch,
     keeper: Option<&Keeper>,
 ) -> Result<Stats> {
     let settings = &built.settings;
-    let left = |film: &Film<3>| {
-        let tiles = film.tiles().iter().enumerate();
-        let mine = tiles.filter(|(i, _)| settings.shard.is_none_or(|s| s.has(*i)));
-        mine.map(|(_, t)| {
-            let samples = u64::from(settings.spp.saturating_sub(t.done()));
-            samples * (t.sums().len() / film.replicates() as usize) as u64
-        })
-        .sum::<u64>()
-    };
-    watch.expect(left(film));
+    watch.expect(left(&film.rgb(), settings));
     let mut stats = Stats::default();
     loop {
-        stats += tracer::render(&built.scene, settings, film, watch)?;
+        stats += built.scene.render(settings, film, watch)?;
         if let Some(keeper) = keeper {
             keeper.save(film)?;
             watch.resume();
         }
-        if least(film, settings.shard) >= settings.spp || watch.ended() {
+        if least(&film.rgb(), settings.shard) >= settings.spp || watch.ended() {
             return Ok(stats);
         }
     }
 }
 
+/// Paths that are still to come.
+fn left(film: &Film<3>, settings: &Settings) -> u64 {
+    let tiles = film.tiles().iter().enumerate();
+    let mine = tiles.filter(|(i, _)| settings.shard.is_none_or(|s| s.has(*i)));
+    mine.map(|(_, t)| {
+        let samples = u64::from(settings.spp.saturating_sub(t.done()));
+        samples * (t.sums().len() / film.replicates() as usize) as u64
+    })
+    .sum()
+}
+
 /// As many samples as the time allows; how many is settled before the last half of them is drawn.
-fn until(built: &mut BuiltScene, film: &mut Film<3>, watch: &Watch, budget: f64) -> Result<Stats> {
-    let pixels = u64::from(film.width()) * u64::from(film.height());
+fn until(
+    built: &mut BuiltScene<AnyScene>,
+    film: &mut AnyFilm,
+    watch: &Watch,
+    budget: f64,
+) -> Result<Stats> {
+    let pixels = u64::from(built.size.0) * u64::from(built.size.1);
+    let mut done = 0;
     let mut stats = Stats::default();
     let mut next = Some(REPLICATES);
     while let Some(spp) = next.filter(|_| !watch.ended()) {
         built.settings.spp = spp;
-        watch.expect(pixels * u64::from(spp - film.spp()));
-        stats += tracer::render(&built.scene, &built.settings, film, watch)?;
+        watch.expect(pixels * u64::from(spp - done));
+        stats += built.scene.render(&built.settings, film, watch)?;
+        done = spp;
         next = tracer::next_spp(spp, watch.seconds()[0], budget, REPLICATES);
     }
     Ok(stats)
 }
 
 /// How many samples keep the picture below `error`, by a pilot of another seed.
-fn aim(built: &BuiltScene, args: &Render, error: f64, watch: &Watch) -> Result<Aimed> {
+fn aim(built: &BuiltScene<AnyScene>, args: &Render, error: f64, watch: &Watch) -> Result<Aimed> {
     let start = Instant::now();
     let target = Target {
         rel_rmse: error,
         confidence: args.confidence,
         most: args.spp.unwrap_or(MOST).max(REPLICATES),
     };
-    let mut film = Film::<3>::new(built.size.0, built.size.1, REPLICATES);
+    let size = [built.size.0, built.size.1];
+    let mut film = built.scene.film(size, REPLICATES);
     let choice = target.choose(FIRST_LOOK, |spp, confidence| -> Result<_> {
         let settings = Settings {
             spp,
             seed: built.settings.seed ^ PILOT,
             ..built.settings.clone()
         };
-        tracer::render(&built.scene, &settings, &mut film, &Silent(watch))?;
+        built.scene.render(&settings, &mut film, &Silent(watch))?;
         if watch.interrupted() {
             bail!(
                 "interrupted before the picture was begun: a pilot looked for the samples it takes"
             );
         }
-        let estimate = film.estimate(confidence);
+        let estimate = film.rgb().estimate(confidence);
         say(format_args!(
             "pilot: {spp} samples a pixel, relative RMSE {:.3} %",
             100.0 * estimate.rel_rmse
