@@ -138,7 +138,6 @@ fn coverage(scene: &Scene<1>, strategy: Strategy) -> Coverage {
 }
 
 #[test]
-#[expect(clippy::print_stdout, reason = "the measured shares are the point")]
 fn slow_intervals_cover_the_truth_as_often_as_they_say() {
     let mut all = 0.0;
     let scenes = [

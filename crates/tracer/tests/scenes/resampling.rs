@@ -136,7 +136,6 @@ fn resampling_finds_the_light_that_mis_finds() {
 }
 
 #[test]
-#[expect(clippy::print_stdout, reason = "the measured ratios are the point")]
 fn slow_resampling_against_mis() {
     for off in [0.0, 10.0] {
         for radius in [0.02, 0.35, 1.4] {
