@@ -13,7 +13,7 @@ const SPP: u32 = 32;
 const REPLICATES: u32 = 8;
 /// Seed of the pilot: any other than the picture's.
 const SALT: u64 = 0x7069_6c6f_7421_0001;
-/// What a point on a light and its evaluation cost, in rays: measured on the benchmark scene (`docs/error.md`).
+/// What a point on a light and its evaluation count for, in rays: assumed, since the choice must not depend on the machine.
 const CANDIDATE_COST: f64 = 0.35;
 
 /// What a strategy did in the pilot.
