@@ -39,7 +39,7 @@ fn time_is_kept() {
     let seconds = said["seconds"].as_f64().unwrap();
     // other processes may take the processor away in the last half
     assert!(seconds > 0.5 && seconds < 2.0, "{said}");
-    assert!(said["spp"].as_u64().unwrap() % 8 == 0, "{said}");
+    assert_eq!(said["spp"].as_u64().unwrap() % 8, 0, "{said}");
 }
 
 #[test]
