@@ -4,8 +4,10 @@ use crate::verbs::converge::Converge;
 use crate::verbs::stress::Stress;
 use crate::verbs::fit::Fit;
 use crate::verbs::samplers::Samplers;
+use crate::verbs::merge::Merge;
+use crate::verbs::render::Render;
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use scene_io::scene::{InterpolationName, SamplerName, SpectrumName};
+use scene_io::scene::InterpolationName;
 use std::path::PathBuf;
 
 /// Check, see, convert and render measured reflectance.
@@ -31,6 +33,7 @@ pub(crate) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Verb {
     Render(Render),
+    Merge(Merge),
     Info(Info),
     Eval(Eval),
     Plot(Plot),
@@ -43,50 +46,6 @@ pub(crate) enum Verb {
     Samplers(Samplers),
     Spectra(crate::verbs::spectra::Spectra),
     Converge(Converge),
-}
-
-/// Render a scene to EXR and PNG, with its own error estimate.
-///
-/// Ctrl-C finishes the tiles at hand and writes what there is (exit code 0, `interrupted` in JSON); a second one ends the
-/// program at once (130).
-#[derive(Debug, Default, Args)]
-#[command(after_help = "Examples:
-  gonio render                                              the embedded default: two materials measured on the fly
-  gonio render --material brass.binary -o brass.exr         your file in the default scene
-  gonio render scenes/benchmark/scene.ron --material FILE --spp 64 --threads 2 --json")]
-pub(crate) struct Render {
-    /// Scene in RON; without it the embedded default scene.
-    pub(crate) scene: Option<PathBuf>,
-    /// Output; a tone-mapped PNG is written beside it.
-    #[arg(short, long, value_name = "OUT.exr", default_value = "gonio.exr", value_parser = parse_exr)]
-    pub(crate) output: PathBuf,
-    /// Replaces the scene's main material by any readable file.
-    #[arg(long, value_name = "FILE")]
-    pub(crate) material: Option<PathBuf>,
-    /// Samples a pixel.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
-    pub(crate) spp: Option<u32>,
-    /// Seed: same seed, same bits, whatever the threads.
-    #[arg(long, value_name = "S")]
-    pub(crate) seed: Option<u64>,
-    /// Worker threads; all cores by default.
-    #[arg(long, value_name = "T", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(crate) threads: Option<u16>,
-    /// What the channels are: rgb, xyz, 8, 16, 45, native or hero.
-    #[arg(long, value_name = "NAME")]
-    pub(crate) spectrum: Option<SpectrumName>,
-    /// How directions are chosen on measured materials.
-    #[arg(long, value_name = "NAME")]
-    pub(crate) sampler: Option<SamplerName>,
-    /// Interpolation of tables: see `gonio info FILE` for what a format offers.
-    #[arg(long, value_name = "NAME")]
-    pub(crate) interpolation: Option<InterpolationName>,
-    /// Size in pixels, such as 320x240.
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
-    pub(crate) size: Option<(u32, u32)>,
-    /// Say what the scene does not need and is left out.
-    #[arg(long)]
-    pub(crate) explain: bool,
 }
 
 /// Say what a file is: format, grid, channels, colour, validity.
@@ -237,17 +196,7 @@ pub(crate) struct Compare {
     pub(crate) b: PathBuf,
 }
 
-impl Render {
-    /// What `gonio` without a verb does.
-    pub(crate) fn embedded_default() -> Self {
-        Self {
-            output: PathBuf::from("gonio.exr"),
-            ..Self::default()
-        }
-    }
-}
-
-fn parse_exr(text: &str) -> Result<PathBuf, String> {
+pub(crate) fn parse_exr(text: &str) -> Result<PathBuf, String> {
     with_ending(
         text,
         &["exr"],
@@ -259,7 +208,7 @@ fn parse_picture(text: &str) -> Result<PathBuf, String> {
     with_ending(text, &["svg", "png"], "an output ending in .svg or .png")
 }
 
-fn with_ending(text: &str, endings: &[&str], expected: &str) -> Result<PathBuf, String> {
+pub(crate) fn with_ending(text: &str, endings: &[&str], expected: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     let ending = path
         .extension()
@@ -287,7 +236,7 @@ fn parse_finite(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "expected a finite number".into())
 }
 
-fn parse_not_negative(text: &str) -> Result<f64, String> {
+pub(crate) fn parse_not_negative(text: &str) -> Result<f64, String> {
     parse_finite(text)
         .ok()
         .filter(|v| *v >= 0.0)

@@ -61,8 +61,9 @@ fn one_line(rendered: &str) -> String {
 fn run(cli: &Cli) -> anyhow::Result<()> {
     let context = verbs::Context::new(cli);
     match &cli.verb {
-        None => verbs::render::run(&context, &args::Render::embedded_default()),
+        None => verbs::render::run(&context, &verbs::render::Render::embedded_default()),
         Some(Verb::Render(args)) => verbs::render::run(&context, args),
+        Some(Verb::Merge(args)) => verbs::merge::run(&context, args),
         Some(Verb::Info(args)) => verbs::info::run(&context, args),
         Some(Verb::Eval(args)) => verbs::eval::run(&context, args),
         Some(Verb::Plot(args)) => verbs::plot::run(&context, args),

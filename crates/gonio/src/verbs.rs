@@ -7,6 +7,7 @@ pub(crate) mod eval;
 pub(crate) mod fit;
 pub(crate) mod info;
 pub(crate) mod measure;
+pub(crate) mod merge;
 pub(crate) mod mix;
 pub(crate) mod plot;
 pub(crate) mod render;

@@ -156,6 +156,7 @@ pub(crate) fn parts<const N: usize, P: Palette<N>>(
         lights,
         environment,
     };
+    notes.extend(uneven(file, &used.reports));
     let scene =
         Scene::with_mode(palette.mode(), description).map_err(|e| Error::invalid(e.to_string()))?;
     Ok(Parts {
@@ -163,6 +164,20 @@ pub(crate) fn parts<const N: usize, P: Palette<N>>(
         reports: used.reports,
         index: used.index,
     })
+}
+
+/// Warns of samplers that undo what even points are for.
+fn uneven(file: &SceneFile, materials: &[MaterialReport]) -> Vec<String> {
+    let even = file.render.points != PointsName::Independent;
+    let broken = materials.iter().filter(|m| even && !m.sampler.stratified);
+    broken
+        .map(|m| {
+            format!(
+                "material \"{}\": sampler {} breaks the stratification of the points: the error falls no faster than with independent ones",
+                m.name, m.sampler.name
+            )
+        })
+        .collect()
 }
 
 fn settings(file: &SceneFile) -> Settings {

@@ -7,6 +7,7 @@
 //! - [`material`]: measured files and models to materials.
 //! - [`spectral`]: scenes and films in other channels than linear sRGB.
 //! - [`image`], [`compare`]: EXR and PNG, and how far two pictures are apart.
+//! - [`rows`]: error against run time, as a render goes on.
 //! - [`converge`]: error against run time of several ways to render a scene.
 //! - [`survey`]: how noisy, how fast and how right a sampler of a material is.
 //! - [`checkpoint`], [`Cache`]: what gonio keeps for itself.
@@ -20,6 +21,7 @@ pub mod image;
 pub mod load;
 pub mod material;
 pub mod mesh;
+pub mod rows;
 pub mod scene;
 pub mod sealed;
 pub mod spectral;
@@ -31,6 +33,7 @@ mod cache;
 mod compare;
 mod data_dirs;
 mod error;
+mod fingerprint;
 mod overrides;
 
 pub use build::{BuiltScene, MaterialReport, Places, build_any_scene, build_scene};
@@ -38,6 +41,7 @@ pub use cache::Cache;
 pub use compare::{Metrics, ZStatistics, compare};
 pub use data_dirs::DataDirs;
 pub use error::{Error, ErrorKind};
+pub use fingerprint::fingerprint;
 pub use overrides::Overrides;
 pub use scene::SceneFile;
 

@@ -84,6 +84,19 @@ pub fn seal(label: Label, payload: &[u8]) -> Vec<u8> {
 /// # Errors
 /// The first [`Refusal`] that applies.
 pub fn unseal(label: Label, bytes: &[u8]) -> Result<&[u8], Refusal> {
+    let (key, payload) = unseal_any(label, bytes)?;
+    if key == label.key {
+        Ok(payload)
+    } else {
+        Err(Refusal::Key)
+    }
+}
+
+/// Key and payload of a sealed file of the kind and version of `label`, whatever its key.
+///
+/// # Errors
+/// The first [`Refusal`] that applies.
+pub fn unseal_any(label: Label, bytes: &[u8]) -> Result<(u64, &[u8]), Refusal> {
     let length = |expected: u64| Refusal::Length {
         expected,
         found: bytes.len() as u64,
@@ -111,10 +124,7 @@ pub fn unseal(label: Label, bytes: &[u8]) -> Result<&[u8], Refusal> {
     if crc32fast::hash(content).to_le_bytes() != *checksum {
         return Err(Refusal::Checksum);
     }
-    if number(16) != label.key {
-        return Err(Refusal::Key);
-    }
-    Ok(&content[HEADER..])
+    Ok((number(16), &content[HEADER..]))
 }
 
 /// A 64-bit hash of bytes, the same on every machine and in every version: FNV-1a over 8-byte words with

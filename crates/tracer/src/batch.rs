@@ -10,9 +10,10 @@ use crate::light::LightLanes;
 use crate::math::{F, U, splat3};
 use crate::mode::{Develop, Mode};
 use crate::path::{HitLanes, NONE, PathState, Paths, Shadows};
+use crate::ris;
 use crate::stats::Stats;
 use crate::vertex::VertexLanes;
-use brdf::{EvalPacket, LANES, SamplePacket, Tag};
+use brdf::{EvalPacket, LANES, Lanes3, SamplePacket, Tag};
 use std::time::Instant;
 
 /// Blocks of vertices a material is handed at once: few enough to stay in the first-level cache, enough to make the
@@ -65,6 +66,7 @@ pub(crate) struct Workspace<const N: usize, S: Mode<N>> {
     /// Paths that met a light.
     met: Vec<u32>,
     vertices: Vec<VertexLanes<N>>,
+    /// Points on lights and their evaluations: for each block of vertices as many as there are candidates.
     lights: Vec<LightLanes<N>>,
     evals: Vec<EvalPacket<N, S::Tag>>,
     samples: Vec<SamplePacket<N, S::Tag>>,
@@ -81,8 +83,8 @@ pub(crate) struct Workspace<const N: usize, S: Mode<N>> {
 }
 
 impl<const N: usize, S: Mode<N>> Workspace<N, S> {
-    /// Room for `capacity` paths and `materials` materials.
-    pub(crate) fn new(capacity: usize, materials: usize) -> Self {
+    /// Room for `capacity` paths, `materials` materials and `candidates` points on lights a vertex.
+    pub(crate) fn new(capacity: usize, materials: usize, candidates: usize) -> Self {
         let capacity = capacity.next_multiple_of(LANES);
         Self {
             paths: Paths::new(capacity),
@@ -94,8 +96,8 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
             ends: vec![0; materials + 1],
             met: vec![0; capacity],
             vertices: vec![VertexLanes::EMPTY; BLOCKS],
-            lights: vec![LightLanes::EMPTY; BLOCKS],
-            evals: vec![EvalPacket::ZERO; BLOCKS],
+            lights: vec![LightLanes::EMPTY; BLOCKS * candidates],
+            evals: vec![EvalPacket::ZERO; BLOCKS * candidates],
             samples: vec![SamplePacket::ZERO; BLOCKS],
             slots: vec![[0.0; N]; capacity],
             tag: vec![S::Tag::FIRST; capacity],
@@ -276,7 +278,8 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
         };
         let weight = if depth > 0 && kernel.weigh {
             let pdf = self.paths.pdf[i];
-            let other = light.pdf(o, d, hits.t[k], || scene.geometry.flat_normal(prim));
+            let other = kernel.candidates as f32
+                * light.pdf(o, d, hits.t[k], || scene.geometry.flat_normal(prim));
             // written so that an infinite density of the material gives one
             1.0 / (1.0 + other / pdf)
         } else {
@@ -310,32 +313,50 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
             sampling.tag = tag;
             sampling.wo = vertex.wo;
             sampling.u = kernel.points.get2_lanes(stream, index, dimension(depth, 0));
-            if kernel.ask_lights {
-                let on_light = kernel.points.get2_lanes(stream, index, dimension(depth, 1));
-                let choice = if kernel.lights.several() {
-                    let at = dimension(depth, 2);
-                    std::array::from_fn(|k| kernel.points.get1(stream[k], index[k], at))
-                } else {
-                    [0.0; LANES]
-                };
-                let light = &mut self.lights[blocks];
-                let u = (&choice, &on_light);
-                kernel.lights.sample(&vertex.o, u, &tag, light);
-                let eval = &mut self.evals[blocks];
-                eval.tag = tag;
-                eval.wo = vertex.wo;
-                eval.wi = vertex.locals(&light.wi);
-            }
             blocks += 1;
         }
+        if kernel.ask_lights {
+            for block in 0..blocks {
+                self.propose(kernel, depth, block);
+            }
+        }
         blocks
+    }
+
+    /// Points on lights for one block of vertices.
+    #[inline(always)]
+    fn propose(&mut self, kernel: &Kernel<'_, N, S>, depth: u32, block: usize) {
+        let dimension = Kernel::<N, S>::dimension;
+        let m = kernel.candidates;
+        let vertex = &self.vertices[block];
+        let stream = vertex.slot.map(|s| self.stream[s as usize]);
+        let index = vertex.slot.map(|s| self.index[s as usize]);
+        let tag = vertex.slot.map(|s| self.tag[s as usize]);
+        for j in 0..m {
+            // M points in a row of the sequence are even among themselves
+            let index = index.map(|i| i.wrapping_mul(m as u32).wrapping_add(j as u32));
+            let on_light = kernel.points.get2_lanes(stream, index, dimension(depth, 1));
+            let choice = if kernel.lights.several() {
+                let at = dimension(depth, 2);
+                std::array::from_fn(|k| kernel.points.get1(stream[k], index[k], at))
+            } else {
+                [0.0; LANES]
+            };
+            let light = &mut self.lights[block * m + j];
+            let u = (&choice, &on_light);
+            kernel.lights.sample(&vertex.o, u, &tag, light);
+            let eval = &mut self.evals[block * m + j];
+            eval.tag = tag;
+            eval.wo = vertex.wo;
+            eval.wi = vertex.locals(&light.wi);
+        }
     }
 
     /// The two virtual calls.
     fn ask(&mut self, kernel: &Kernel<'_, N, S>, material: usize, blocks: usize) {
         let material = &kernel.scene.materials[material];
         if kernel.ask_lights {
-            material.eval(&mut self.evals[..blocks]);
+            material.eval(&mut self.evals[..blocks * kernel.candidates]);
         }
         material.sample(&mut self.samples[..blocks]);
     }
@@ -345,7 +366,7 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
     fn advance(&mut self, kernel: &Kernel<'_, N, S>, depth: u32, blocks: usize) {
         for block in 0..blocks {
             if kernel.ask_lights {
-                self.advance_shadows(kernel, block);
+                self.advance_shadows(kernel, depth, block);
             }
             let (vertex, s) = (&self.vertices[block], &self.samples[block]);
             let mut throughput = [[0.0; LANES]; N];
@@ -409,7 +430,11 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
 
     /// Shadow rays of one block, weighed by the balance heuristic.
     #[inline(always)]
-    fn advance_shadows(&mut self, kernel: &Kernel<'_, N, S>, block: usize) {
+    fn advance_shadows(&mut self, kernel: &Kernel<'_, N, S>, depth: u32, block: usize) {
+        if kernel.candidates > 1 {
+            self.advance_chosen(kernel, depth, block);
+            return;
+        }
         let (vertex, eval, light) = (
             &self.vertices[block],
             &self.evals[block],
@@ -435,13 +460,55 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
         for k in 0..LANES {
             keep[k] &= u32::from((light.pdf[k] > 0.0) & (eval.wi.z[k] > 0.0));
         }
+        self.send(kernel, block, [block; LANES], &carried, &mut keep);
+    }
+
+    /// The same for the candidate of each lane that resampling chooses.
+    #[inline(always)]
+    fn advance_chosen(&mut self, kernel: &Kernel<'_, N, S>, depth: u32, block: usize) {
+        let m = kernel.candidates;
+        let all = block * m..(block + 1) * m;
+        let vertex = &self.vertices[block];
+        let at = Kernel::<N, S>::dimension(depth, 1);
+        let u = std::array::from_fn(|k| {
+            let slot = vertex.slot[k] as usize;
+            kernel.points.get1(self.stream[slot], self.index[slot], at)
+        });
+        let chosen = ris::choose(
+            &vertex.throughput,
+            &self.evals[all.clone()],
+            &self.lights[all.clone()],
+            &u,
+            kernel.weigh,
+        );
+        let mut keep = lasts(&chosen.carried);
+        let from = chosen.candidate.map(|j| all.start + j);
+        self.send(kernel, block, from, &chosen.carried, &mut keep);
+    }
+
+    /// Sends the shadow rays of one block toward lanes of the lights `from`.
+    #[inline(always)]
+    fn send(
+        &mut self,
+        kernel: &Kernel<'_, N, S>,
+        block: usize,
+        from: [usize; LANES],
+        carried: &[F; N],
+        keep: &mut U,
+    ) {
+        let vertex = &self.vertices[block];
+        let mut wi = Lanes3::ZERO;
+        for k in 0..LANES {
+            wi.set(k, self.lights[from[k]].wi.get(k));
+        }
         if kernel.scene.smooth {
-            vertex.drop_below(&light.wi, &mut keep);
+            vertex.drop_below(&wi, keep);
         }
         for k in 0..vertex.count {
+            let light = &self.lights[from[k]];
             let path = PathState {
                 o: vertex.o.get(k),
-                d: light.wi.get(k),
+                d: wi.get(k),
                 from: vertex.from[k],
                 slot: vertex.slot[k],
                 pdf: 0.0,

@@ -4,8 +4,8 @@ use crate::film::Film;
 
 /// A picture with the error it knows of itself.
 ///
-/// All errors are those of the mean of everything the film holds. They are exact in expectation for independent
-/// replicates; intervals rest on replicate means being nearly normal [`LEcuyer2023`].
+/// All errors are those of the mean of everything the film holds: what the same render with another seed would err by,
+/// in the root mean square. They are exact in expectation for independent replicates.
 #[derive(Clone, Debug)]
 pub struct Estimate<const N: usize> {
     /// The picture, row after row from the top.
@@ -16,36 +16,37 @@ pub struct Estimate<const N: usize> {
     pub degrees: u32,
     /// sqrt(mean over pixels and channels of the squared error).
     pub rmse: f64,
+    /// Interval that holds the expected `rmse` with the confidence asked for.
+    pub rmse_ci: [f64; 2],
     /// sqrt(sum of squared errors / sum of squared values).
     pub rel_rmse: f64,
-    /// Interval that holds the true `rel_rmse` with the confidence asked for.
+    /// Interval that holds the expected `rel_rmse` with the confidence asked for.
     pub rel_rmse_ci: [f64; 2],
+    /// 2 V^2 / Var(V) of the summed variance V: the degrees of freedom of the chi-square the intervals rest on.
+    pub effective_degrees: f64,
 }
 
 impl<const N: usize> Film<N> {
-    /// The picture and its error; `confidence` in (0, 1) is that of the interval.
+    /// The picture and its error; `confidence` in (0, 1) is that of the intervals.
     #[must_use]
     pub fn estimate(&self, confidence: f64) -> Estimate<N> {
-        let pixels = self.map(([0.0; N], [f64::INFINITY; N]), |tile, sums| {
-            mean_and_variance(sums, |r| tile.samples_of(r))
+        let empty = ([0.0; N], [f64::INFINITY; N], f64::INFINITY);
+        let pixels = self.map(empty, |tile, sums| {
+            let count = |r| tile.samples_of(r);
+            let (mean, variance) = mean_and_variance(sums, count);
+            (mean, variance, variance_of_variance(sums, count))
         });
         let replicates = self.replicates().min(self.spp());
-        let (mean, variance): (Vec<_>, Vec<_>) = pixels.into_iter().unzip();
         let (mut square, mut error, mut spread) = (0.0, 0.0, 0.0);
-        for (m, v) in mean.iter().zip(&variance) {
-            let pixel: f64 = v.iter().sum();
+        let (mut mean, mut variance) = (Vec::new(), Vec::new());
+        for (m, v, s) in pixels {
             square += m.iter().map(|x| x * x).sum::<f64>();
-            error += pixel;
-            spread += pixel * pixel;
+            error += v.iter().sum::<f64>();
+            spread += s;
+            mean.push(m);
+            variance.push(v);
         }
-        // Var(V) = 2 V^2 / d of a variance with d degrees of freedom, and E(V-hat^2) = V^2 (d + 2) / d;
-        // channels of a pixel err together
-        let degrees = f64::from(replicates.saturating_sub(1));
-        let effective = if spread > 0.0 {
-            error * error * (degrees + 2.0) / spread
-        } else {
-            f64::INFINITY
-        };
+        let effective = effective_degrees(error, spread, replicates, mean.len() * N);
         // E(mean^2) = truth^2 + variance
         let rel = |error: f64| {
             let truth = square - error;
@@ -57,16 +58,23 @@ impl<const N: usize> Film<N> {
                 f64::INFINITY
             }
         };
+        let rmse = |error: f64| (error / (mean.len() * N).max(1) as f64).sqrt();
         let tail = 0.5 * (1.0 - confidence);
-        let ratio = |p: f64| chi_square_ratio(effective, p);
-        Estimate {
-            rmse: (error / (mean.len() * N).max(1) as f64).sqrt(),
-            rel_rmse: rel(error),
-            rel_rmse_ci: if replicates < 2 {
-                [0.0, f64::INFINITY]
+        let [low, high] = [1.0 - tail, tail].map(|p| error / chi_square_ratio(effective, p));
+        let known = replicates >= 2;
+        let interval = |of: &dyn Fn(f64) -> f64| {
+            if known {
+                [of(low), of(high)]
             } else {
-                [rel(error / ratio(1.0 - tail)), rel(error / ratio(tail))]
-            },
+                [0.0, f64::INFINITY]
+            }
+        };
+        Estimate {
+            rmse: rmse(error),
+            rmse_ci: interval(&rmse),
+            rel_rmse: rel(error),
+            rel_rmse_ci: interval(&rel),
+            effective_degrees: effective,
             mean,
             variance,
             degrees: replicates.saturating_sub(1),
@@ -116,6 +124,58 @@ fn mean_and_variance<const N: usize>(
     (mean, variance)
 }
 
+/// Variance of the summed variance of one pixel's channels, estimated without bias whatever the distribution.
+///
+/// The summed variance is a U-statistic of order two, U = mean over pairs of D_ij with D_ij = |x_i - x_j|^2 / 2, over R
+/// replicates. Two of its terms that share no replicate are independent, so that the mean of D_ij D_kl over disjoint
+/// pairs estimates E(U)^2 without bias, and Var(U) = E(U^2) - E(U)^2 [Hoeffding1948]. Channels enter together, so their
+/// correlation is in D; heavy tails are, as far as the replicates show them. Infinite below four replicates.
+fn variance_of_variance<const N: usize>(sums: &[[f64; N]], count: impl Fn(u32) -> u32) -> f64 {
+    let mut means = Vec::with_capacity(sums.len());
+    for (r, sum) in (0..).zip(sums) {
+        if count(r) > 0 {
+            means.push(sum.map(|s| s / f64::from(count(r))));
+        }
+    }
+    let n = means.len() as f64;
+    if means.len() < 4 {
+        return f64::INFINITY;
+    }
+    // S = sum D, T_i = sum_j D_ij, Q = sum D^2
+    let (mut s, mut q, mut t) = (0.0, 0.0, vec![0.0; means.len()]);
+    for (i, x) in means.iter().enumerate() {
+        for (j, y) in means.iter().enumerate().skip(i + 1) {
+            let d = x.iter().zip(y).map(|(a, b)| (a - b) * (a - b)).sum::<f64>() / 2.0;
+            s += d;
+            q += d * d;
+            t[i] += d;
+            t[j] += d;
+        }
+    }
+    let shared: f64 = t.iter().map(|t| t * t).sum();
+    let pairs = n * (n - 1.0) / 2.0;
+    let disjoint = (s * s - shared + q) / (pairs * (n - 2.0) * (n - 3.0) / 2.0);
+    let u = s / pairs;
+    // V = U / R
+    (u * u - disjoint) / (n * n)
+}
+
+/// Degrees of freedom of the chi-square with the mean `error` and the variance `spread` [Satterthwaite1946], kept
+/// between those of one normal value and of as many as there are: what an unlucky estimate of `spread` could leave.
+fn effective_degrees(error: f64, spread: f64, replicates: u32, values: usize) -> f64 {
+    let one = f64::from(replicates.saturating_sub(1)).max(1.0);
+    let most = one * values as f64;
+    let degrees = 2.0 * error * error / spread;
+    if spread > 0.0 && degrees.is_finite() {
+        degrees.clamp(1.0, most.max(1.0))
+    } else if spread > 0.0 {
+        // fewer than four replicates: normal values, channels that err together
+        one
+    } else {
+        most
+    }
+}
+
 /// Quantile `p` of chi-square over its degrees of freedom [WilsonHilferty1931].
 fn chi_square_ratio(degrees: f64, p: f64) -> f64 {
     let a = 2.0 / (9.0 * degrees);
@@ -154,6 +214,36 @@ mod tests {
     fn one_replicate_claims_nothing() {
         let (_, variance) = mean_and_variance(&[[3.0], [0.0]], |r| 1 - r);
         assert!(variance[0].is_infinite(), "infinite variance");
+    }
+
+    #[test]
+    fn variance_of_variance_is_unbiased_for_skewed_values_that_err_together() {
+        // exponential values, two channels of which the second is half the first: V = U / R with
+        // U = (1 + 1/4) s^2 and Var(s^2) = (m4 - m2^2 (R - 3) / (R - 1)) / R, m2 = 1, m4 = 9 [Hoeffding1948]
+        const R: usize = 8;
+        let mut rng = sampling::Rng::new(5);
+        let runs = 200_000;
+        let (mut sum, mut square) = (0.0, 0.0);
+        for _ in 0..runs {
+            let sums: [[f64; 2]; R] = std::array::from_fn(|_| {
+                let x = -(1.0 - rng.uniform()).ln();
+                [x, 0.5 * x]
+            });
+            let v = variance_of_variance(&sums, |_| 1);
+            sum += v;
+            square += v * v;
+        }
+        let n = f64::from(runs);
+        let mean = sum / n;
+        let error = ((square / n - mean * mean) / n).sqrt();
+        let r = R as f64;
+        let exact = 1.25 * 1.25 * (9.0 - (r - 3.0) / (r - 1.0)) / r / (r * r);
+        // 4 standard errors of a skewed mean, and an error bar that can tell 1 from 1.1
+        assert!(
+            (mean - exact).abs() < 4.0 * error,
+            "{mean} +- {error}, exact {exact}"
+        );
+        assert!(error < 0.02 * exact, "{error} of {exact}");
     }
 
     #[test]

@@ -15,6 +15,9 @@ const PER_VERTEX: u32 = 3;
 /// The pair that places the sample in its pixel comes first.
 const FIRST_VERTEX: u32 = 1;
 
+/// Points on lights that [`Strategy::Ris`] chooses from. A power of two keeps them even.
+pub(crate) const CANDIDATES: usize = 8;
+
 /// The scene with everything that is chosen once per render.
 pub(crate) struct Kernel<'a, const N: usize, S: Mode<N>> {
     pub(crate) scene: &'a Scene<N, S>,
@@ -36,6 +39,8 @@ pub(crate) struct Kernel<'a, const N: usize, S: Mode<N>> {
     pub(crate) count_met: bool,
     /// Whether both are weighed against each other.
     pub(crate) weigh: bool,
+    /// Points on lights a vertex looks at for its one shadow ray.
+    pub(crate) candidates: usize,
     /// Where paths go that meet the front or the back of an object (entries 2 i and 2 i + 1), or nothing (the last):
     /// a material, or as many as there are for the end; plus [`SHINES`] where light is met.
     pub(crate) sides: Vec<u32>,
@@ -53,7 +58,7 @@ impl<'a, const N: usize, S: Mode<N>> Kernel<'a, N, S> {
     ) -> Self {
         let lights = match settings.strategy {
             Strategy::LightOnly => &scene.all_lights,
-            Strategy::Mis | Strategy::BsdfOnly => &scene.lights,
+            Strategy::Mis | Strategy::Ris | Strategy::BsdfOnly => &scene.lights,
         };
         Self {
             scene,
@@ -69,7 +74,12 @@ impl<'a, const N: usize, S: Mode<N>> Kernel<'a, N, S> {
             arch: pulp::Arch::new(),
             ask_lights: settings.strategy != Strategy::BsdfOnly && lights.any(),
             count_met: settings.strategy != Strategy::LightOnly,
-            weigh: settings.strategy == Strategy::Mis,
+            weigh: matches!(settings.strategy, Strategy::Mis | Strategy::Ris),
+            candidates: if settings.strategy == Strategy::Ris {
+                CANDIDATES
+            } else {
+                1
+            },
             sides: sides(scene),
         }
     }

@@ -46,7 +46,7 @@ impl<const N: usize, S: Mode<N>> Scene<N, S> {
     pub fn left_out(&self, settings: &Settings) -> Vec<LeftOut> {
         let lights = match settings.strategy {
             Strategy::LightOnly => &self.all_lights,
-            Strategy::Mis | Strategy::BsdfOnly => &self.lights,
+            Strategy::Mis | Strategy::Ris | Strategy::BsdfOnly => &self.lights,
         };
         let asked = settings.strategy != Strategy::BsdfOnly && lights.any();
         let all = [

@@ -93,7 +93,9 @@ fn passes<const N: usize, const M: usize, S: Develop<N, M>>(
         if film.spp() < aim {
             film.tiles
                 .par_iter_mut()
-                .for_each(|tile| run_tile(&kernel, &pool, tile, aim, progress));
+                .enumerate()
+                .filter(|(i, _)| settings.shard.is_none_or(|s| s.has(*i)))
+                .for_each(|(_, tile)| run_tile(&kernel, &pool, tile, aim, progress));
             if progress.cancelled() || progress.pass_done(film).is_break() {
                 break;
             }
@@ -124,6 +126,7 @@ fn run_tile<const N: usize, const M: usize, S: Develop<N, M>>(
         Workspace::new(
             (TILE * TILE * SAMPLES) as usize,
             kernel.scene.materials.len(),
+            kernel.candidates,
         )
     });
     let before = workspace.stats.paths;

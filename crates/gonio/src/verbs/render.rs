@@ -1,29 +1,38 @@
 //! `gonio render [SCENE.ron]`.
 
+mod args;
+mod error_map;
+pub(crate) mod keeper;
 mod progress;
 mod report;
+mod strategy;
+mod trace;
 
 use super::Context;
-use crate::args::Render;
 use crate::output::say;
-use crate::process;
 use anyhow::{Context as _, Result};
-use progress::Watch;
+pub(crate) use args::Render;
 use report::Report;
 use scene_io::image::{Metadata, Picture, write_exr, write_png, write_spectral_exr};
+use scene_io::rows::{Recorder, Row};
 use scene_io::scene::MaterialSpec;
 use scene_io::spectral::{AnyFilm, AnyScene};
 use scene_io::{BuiltScene, DEFAULT_SCENE, Overrides, SceneFile, build_any_scene};
 use std::num::NonZeroUsize;
 use std::path::Path;
 use std::time::Instant;
-
-/// Independent scrambles of the points, from whose differences the error is estimated.
-const REPLICATES: u32 = 8;
+use trace::{Aimed, trace};
 
 pub(crate) fn run(context: &Context, args: &Render) -> Result<()> {
     // hours of rendering must not end at a folder that does not exist
     scene_io::write::check(&args.output)?;
+    if let Some(map) = &args.error_map {
+        scene_io::write::check(map)?;
+    }
+    let recorder = match &args.rows {
+        Some(path) => Recorder::to_file(path)?,
+        None => Recorder::new(),
+    };
     let file = match &args.scene {
         Some(path) => SceneFile::load(path)?,
         None => SceneFile::from_text(
@@ -39,11 +48,14 @@ pub(crate) fn run(context: &Context, args: &Render) -> Result<()> {
     for note in &built.notes {
         say(format_args!("note: {note}"));
     }
+    built.settings.shard = args.shard;
+    let trials = strategy::settle(&mut built, args.light_strategy)?;
     if args.explain && !context.json {
         report::explain(&built, build_seconds);
+        strategy::explain(&built, trials);
     }
-    let film = trace(&built, context)?;
-    let report = write(&built, &film, args, build_seconds)?;
+    let traced = trace(&mut built, context, args, recorder)?;
+    let report = write(&built, &traced, args, build_seconds)?;
     context.report(&report, |out| report.print(args, out))
 }
 
@@ -70,26 +82,8 @@ struct Traced {
     seconds: f64,
     cpu_seconds: f64,
     interrupted: bool,
-}
-
-fn trace(built: &BuiltScene<AnyScene>, context: &Context) -> Result<Traced> {
-    let (width, height) = built.size;
-    let replicates = REPLICATES.min(built.settings.spp.max(1));
-    let mut film = built.scene.film([width, height], replicates);
-    let watch = Watch::new(
-        u64::from(width) * u64::from(height) * u64::from(built.settings.spp),
-        context.json,
-    )?;
-    let (start, cpu) = (Instant::now(), process::cpu_seconds());
-    let stats = (built.scene).render(&built.settings, &mut film, &watch)?;
-    watch.finish();
-    Ok(Traced {
-        film,
-        stats,
-        seconds: start.elapsed().as_secs_f64(),
-        cpu_seconds: process::cpu_seconds() - cpu,
-        interrupted: watch.interrupted(),
-    })
+    rows: Vec<Row>,
+    aimed: Option<Aimed>,
 }
 
 fn write(
@@ -98,8 +92,11 @@ fn write(
     args: &Render,
     build_seconds: f64,
 ) -> Result<Report> {
-    let mut picture = Picture::of_film(&traced.film.rgb())?;
     let report = Report::new(built, traced, args, build_seconds);
+    if built.settings.shard.is_some() {
+        return Ok(report);
+    }
+    let mut picture = Picture::of_film(&traced.film.rgb())?;
     picture.metadata = Metadata {
         scene: Some(report.scene.clone()),
         seed: Some(built.settings.seed),
@@ -114,5 +111,8 @@ fn write(
     }
     let png = args.output.with_extension("png");
     write_png(&png, &picture, built.tone_map(&picture)).context("the EXR was written")?;
+    if let Some(map) = &args.error_map {
+        error_map::write(map, &traced.film.rgb()).context("the picture was written")?;
+    }
     Ok(report)
 }

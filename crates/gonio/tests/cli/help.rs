@@ -7,8 +7,8 @@ fn help_texts() {
     let bench = Bench::new();
     insta::assert_snapshot!("gonio", bench.text("--help"));
     for verb in [
-        "render", "info", "eval", "plot", "mix", "convert", "measure", "compare", "converge",
-        "fit", "samplers", "spectra", "stress",
+        "render", "merge", "info", "eval", "plot", "mix", "convert", "measure", "compare",
+        "converge", "fit", "samplers", "spectra", "stress",
     ] {
         let help = bench.text(&format!("{verb} --help"));
         assert!(

@@ -5,6 +5,8 @@ mod broken;
 #[cfg(test)]
 mod chain;
 #[cfg(test)]
+mod checkpoint;
+#[cfg(test)]
 mod converge;
 #[cfg(test)]
 mod data;
@@ -25,6 +27,10 @@ mod output;
 #[cfg(test)]
 mod program;
 #[cfg(test)]
+mod rows;
+#[cfg(test)]
 mod samplers;
 #[cfg(test)]
 mod spectra;
+#[cfg(test)]
+mod stopping;

@@ -19,6 +19,7 @@ pub struct Method {
 /// The names of strategies.
 const STRATEGIES: &[(&str, Strategy)] = &[
     ("mis", Strategy::Mis),
+    ("ris", Strategy::Ris),
     ("light", Strategy::LightOnly),
     ("bsdf", Strategy::BsdfOnly),
 ];

@@ -1,4 +1,5 @@
-//! EXR out: float32 R, G, B, the variance of each as `variance.R`, ..., metadata as attributes.
+//! EXR out: float32 R, G, B, the variance of each as `variance.R`, ..., its root, the standard error, as
+//! `error.R`, ..., metadata as attributes.
 
 use super::picture::{Metadata, Picture};
 use crate::error::Error;
@@ -29,6 +30,8 @@ pub(super) fn write(
     let mut channels = planes("", &picture.pixels);
     if let Some(variance) = &picture.variance {
         channels.extend(planes("variance.", variance));
+        let error: Vec<_> = variance.iter().map(|v| v.map(f32::sqrt)).collect();
+        channels.extend(planes("error.", &error));
     }
     channels.extend(more);
     let mut attributes = LayerAttributes::default();

@@ -24,6 +24,8 @@ pub struct SamplerReport {
     pub bytes: usize,
     /// Seconds it took to build.
     pub build_seconds: f64,
+    /// Whether it keeps the evenness of low-discrepancy points.
+    pub stratified: bool,
     /// What a user may want to know.
     pub notes: Vec<String>,
 }
@@ -34,6 +36,7 @@ impl SamplerReport {
             name,
             bytes,
             build_seconds: 0.0,
+            stratified: true,
             notes: Vec::new(),
         }
     }
@@ -58,6 +61,7 @@ impl<B: Brdf<3> + 'static> Visitor for Pairing<B> {
     fn visit<S: DirectionSampler + 'static>(self, sampler: S, report: SamplerReport) -> Pair {
         let report = SamplerReport {
             bytes: sampler.bytes(),
+            stratified: sampler.keeps_stratification(),
             ..report
         };
         let brdf = self.0;

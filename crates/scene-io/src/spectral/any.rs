@@ -5,6 +5,7 @@ use super::hero;
 use super::light::{self, LightSum};
 use super::palette::{FixedPalette, HeroPalette, RgbPalette};
 use crate::build::{Parts, Places, native_bands, parts};
+use crate::checkpoint::{self, About};
 use crate::error::Error;
 use crate::image::SpectralPicture;
 use crate::scene::{Colour, LightSpec, SceneFile, SpectrumName};
@@ -12,8 +13,9 @@ use brdf::HERO;
 use spectrum::{Basis, Bins};
 use std::borrow::Cow;
 use std::ops::ControlFlow;
+use std::path::Path;
 use std::sync::Arc;
-use tracer::{Film, Hero, LeftOut, Progress, Scene, Settings, Stats};
+use tracer::{Film, Hero, LeftOut, Progress, Scene, Settings, Stats, Strategy, Trial};
 
 /// A scene of `N` fixed channels that are not linear sRGB.
 #[derive(Debug)]
@@ -113,6 +115,23 @@ macro_rules! modes {
                 stats.map_err(|e| Error::invalid(e.to_string()))
             }
 
+            /// [`tracer::choose_strategy`].
+            ///
+            /// # Errors
+            /// If the threads that were asked for can't be started.
+            pub fn choose_strategy(
+                &self,
+                settings: &Settings,
+                size: (u32, u32),
+            ) -> Result<(Strategy, [Trial; 2]), Error> {
+                let chosen = match self {
+                    Self::Rgb(s) => tracer::choose_strategy::<3, 3, _>(s, settings, size),
+                    Self::Hero(s) => tracer::choose_strategy::<HERO, 3, _>(s, settings, size),
+                    $(Self::$name(s) => tracer::choose_strategy::<$n, $n, _>(&s.scene, settings, size)),+
+                };
+                chosen.map_err(|e| Error::invalid(e.to_string()))
+            }
+
             /// [`Scene::left_out`].
             #[must_use]
             pub fn left_out(&self, settings: &Settings) -> Vec<LeftOut> {
@@ -147,10 +166,10 @@ macro_rules! modes {
             ///
             /// # Errors
             /// As there.
-            pub fn save(&self, path: &std::path::Path, key: u64) -> Result<(), Error> {
+            pub fn save(&self, path: &Path, about: &About, key: u64) -> Result<(), Error> {
                 match self {
-                    Self::Rgb(f) => crate::checkpoint::save(path, f, key),
-                    $(Self::$name(f) => crate::checkpoint::save(path, &f.film, key)),+
+                    Self::Rgb(f) => checkpoint::save(path, f, about, key),
+                    $(Self::$name(f) => checkpoint::save(path, &f.film, about, key)),+
                 }
             }
 
@@ -158,10 +177,10 @@ macro_rules! modes {
             ///
             /// # Errors
             /// As [`crate::checkpoint::restore`].
-            pub fn restore(&mut self, path: &std::path::Path, key: u64) -> Result<(), Error> {
+            pub fn restore(&mut self, path: &Path, key: u64) -> Result<About, Error> {
                 match self {
-                    Self::Rgb(f) => crate::checkpoint::restore(path, f, key),
-                    $(Self::$name(f) => crate::checkpoint::restore(path, &mut f.film, key)),+
+                    Self::Rgb(f) => checkpoint::restore(path, f, key),
+                    $(Self::$name(f) => checkpoint::restore(path, &mut f.film, key)),+
                 }
             }
         }

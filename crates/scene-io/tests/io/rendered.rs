@@ -84,9 +84,19 @@ fn a_checkpoint_goes_on_to_the_same_bits() {
     };
     let whole = film(&built("benchmark-env", &small(32)));
     let half = film(&built("benchmark-env", &small(16)));
-    checkpoint::save(&path, &half, 99).unwrap();
+    let about = checkpoint::About {
+        scene: "benchmark-env".into(),
+        seed: 1 << 40,
+        spp: 32,
+        exposure: Some(2.0),
+        shard: Some(tracer::Shard { index: 1, count: 3 }),
+        ..checkpoint::About::default()
+    };
+    checkpoint::save(&path, &half, &about, 99).unwrap();
     let mut resumed = Film::new(40, 24, 8);
-    checkpoint::restore(&path, &mut resumed, 99).unwrap();
+    let found = checkpoint::restore(&path, &mut resumed, 99).unwrap();
+    assert_eq!(found, about);
+    assert_eq!(checkpoint::open::<3>(&path).unwrap().key, 99);
     assert_eq!(resumed, half);
     let scene = built("benchmark-env", &small(32));
     render(&scene.scene, &scene.settings, &mut resumed, &()).unwrap();

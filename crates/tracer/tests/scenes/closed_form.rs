@@ -89,7 +89,12 @@ fn floor_scene() -> Description<1> {
 }
 
 fn all_strategies(make: impl Fn() -> Description<1>, spp: u32, exact: f64, what: &str) {
-    for strategy in [Strategy::Mis, Strategy::LightOnly, Strategy::BsdfOnly] {
+    for strategy in [
+        Strategy::Mis,
+        Strategy::Ris,
+        Strategy::LightOnly,
+        Strategy::BsdfOnly,
+    ] {
         let settings = Settings {
             max_depth: 1,
             strategy,
@@ -128,7 +133,12 @@ fn under_a_rectangle() {
 #[test]
 fn a_closed_box_that_shines_sums_the_series() {
     // all walls send out 1 and reflect 0.5: 1 + 1/2 + 1/4 + .. up to the depth limit, from everywhere
-    for strategy in [Strategy::Mis, Strategy::LightOnly, Strategy::BsdfOnly] {
+    for strategy in [
+        Strategy::Mis,
+        Strategy::Ris,
+        Strategy::LightOnly,
+        Strategy::BsdfOnly,
+    ] {
         for depth in [1, 5] {
             let mut d = empty(
                 camera([0.2, 0.1, 0.0], [1.0, 0.3, 0.2], 60.0),

@@ -33,6 +33,18 @@ impl Brdf<1> for Glossy {
     }
 }
 
+/// A lobe of a few degrees about the half vector, nothing else.
+pub(crate) struct Polished;
+
+impl Brdf<1> for Polished {
+    fn eval(&self, wi: DVec3, wo: DVec3) -> [f64; 1] {
+        if wi.z <= 0.0 || wo.z <= 0.0 {
+            return [0.0];
+        }
+        [20.0 * (wi + wo).normalize().z.powi(400)]
+    }
+}
+
 /// Directions in proportion to the cosine.
 pub(crate) struct Cosine;
 
@@ -61,6 +73,13 @@ pub(crate) fn grey(albedo: f64) -> Box<dyn Material<1>> {
 pub(crate) fn glossy() -> Box<dyn Material<1>> {
     Box::new(Paired {
         brdf: Glossy,
+        sampler: Cosine,
+    })
+}
+
+pub(crate) fn polished() -> Box<dyn Material<1>> {
+    Box::new(Paired {
+        brdf: Polished,
         sampler: Cosine,
     })
 }

@@ -60,7 +60,7 @@ fn lights_of_all_kinds_add_up() {
     };
     let cos = 2.0 / 5.0_f64.sqrt();
     let exact = 0.6 / PI * (4.0 * cos / 5.0 + cos) + 0.6 * 3.0 * 0.04;
-    for strategy in [Strategy::Mis, Strategy::LightOnly] {
+    for strategy in [Strategy::Mis, Strategy::Ris, Strategy::LightOnly] {
         let mut d = floor_scene();
         d.lights = vec![point, sun];
         d.objects
@@ -89,7 +89,12 @@ fn triangles_and_slanted_quads_shine_like_the_rectangle() {
         ("slanted", slanted(), Shape::Mesh(sheared)),
     ];
     for (what, a, b) in cases {
-        for strategy in [Strategy::Mis, Strategy::LightOnly, Strategy::BsdfOnly] {
+        for strategy in [
+            Strategy::Mis,
+            Strategy::Ris,
+            Strategy::LightOnly,
+            Strategy::BsdfOnly,
+        ] {
             let value = |light: &Shape| {
                 let mut d = floor_scene();
                 d.objects.push(shining(light.clone(), 3.0));
@@ -134,6 +139,7 @@ fn a_picture_of_the_sky_lights_the_floor() {
     }
     for (strategy, spp) in [
         (Strategy::Mis, 1024),
+        (Strategy::Ris, 1024),
         (Strategy::LightOnly, 1024),
         (Strategy::BsdfOnly, 16384),
     ] {

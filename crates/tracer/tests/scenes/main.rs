@@ -12,5 +12,7 @@ mod hero;
 mod invariance;
 mod lights;
 mod malformed;
+mod resampling;
 mod robust;
+mod stopping;
 mod strategies;

@@ -52,6 +52,7 @@ fn all_agree() {
             "material",
             value(|s| (s.strategy, s.spp) = (Strategy::BsdfOnly, 512)),
         ),
+        ("resampling", value(|s| s.strategy = Strategy::Ris)),
         ("roulette", value(|s| s.roulette = Some(1))),
         ("halton", value(|s| s.points = PointSet::Halton)),
         ("independent", value(|s| s.points = PointSet::Independent)),
@@ -60,7 +61,7 @@ fn all_agree() {
     ];
     for (what, (mean, error)) in others {
         let error = error.hypot(e);
-        // seven comparisons with 15 degrees of freedom each: chance below one in 200
+        // eight comparisons with 15 degrees of freedom each: chance below one in 200
         assert!(
             (mean - reference).abs() < 4.2 * error,
             "{what}: {mean} for {reference} +- {error}"

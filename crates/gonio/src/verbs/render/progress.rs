@@ -4,29 +4,48 @@ use crate::output::say;
 use crate::process;
 use anyhow::Result;
 use indicatif::{ProgressBar, ProgressStyle};
+use scene_io::rows::{CONFIDENCE, Recorder, Row};
 use std::io::IsTerminal;
-use std::sync::Arc;
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use tracer::Progress;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+use tracer::{Film, Progress};
 
 /// Watches a render: a bar with the time left on a terminal, a line every tenth elsewhere; Ctrl-C ends it after the
 /// tiles at hand.
 pub(super) struct Watch {
     bar: ProgressBar,
-    total: u64,
+    total: AtomicU64,
     done: AtomicU64,
     /// Plain lines instead of a bar.
     plain: bool,
     stop: Arc<AtomicBool>,
+    start: Instant,
+    cpu: f64,
+    /// The rows, and what went wrong writing them.
+    rows: Mutex<(Recorder, Option<scene_io::Error>)>,
+    /// How long to render before a pause, and since when.
+    every: Duration,
+    since: Mutex<Instant>,
+}
+
+/// Shows nothing of a render and ends it when the other is interrupted.
+pub(super) struct Silent<'a>(pub(super) &'a Watch);
+
+impl<const N: usize> Progress<N> for Silent<'_> {
+    fn cancelled(&self) -> bool {
+        self.0.interrupted()
+    }
 }
 
 impl Watch {
-    /// `total` paths; `quiet` shows nothing unless stderr is a terminal.
-    pub(super) fn new(total: u64, quiet: bool) -> Result<Self> {
+    /// `quiet` shows nothing unless stderr is a terminal.
+    pub(super) fn new(quiet: bool, recorder: Recorder) -> Result<Self> {
         let stop = process::watch_interrupts()?;
         let terminal = std::io::stderr().is_terminal();
         let bar = if terminal {
-            ProgressBar::new(total)
+            ProgressBar::new(0)
         } else {
             ProgressBar::hidden()
         };
@@ -35,15 +54,76 @@ impl Watch {
         )?);
         Ok(Self {
             bar,
-            total: total.max(1),
+            total: AtomicU64::new(1),
             done: AtomicU64::new(0),
             plain: !terminal && !quiet,
             stop,
+            start: Instant::now(),
+            cpu: process::cpu_seconds(),
+            rows: Mutex::new((recorder, None)),
+            every: Duration::MAX,
+            since: Mutex::new(Instant::now()),
         })
     }
 
-    pub(super) fn finish(&self) {
+    /// `paths` more are to come.
+    pub(super) fn expect(&self, paths: u64) {
+        self.bar.inc_length(paths);
+        let total = self.done.load(Ordering::Relaxed) + paths;
+        self.total.store(total.max(1), Ordering::Relaxed);
+    }
+
+    /// Time counts from now on.
+    pub(super) fn restart(&mut self) {
+        (self.start, self.cpu) = (Instant::now(), process::cpu_seconds());
+        self.resume();
+    }
+
+    /// The render is to pause this often.
+    pub(super) fn pause_every(&mut self, every: Duration) {
+        self.every = every;
+    }
+
+    /// Ends a pause.
+    pub(super) fn resume(&self) {
+        *self.since.lock().unwrap_or_else(PoisonError::into_inner) = Instant::now();
+    }
+
+    fn pauses(&self) -> bool {
+        self.every < Duration::MAX
+            && self
+                .since
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .elapsed()
+                >= self.every
+    }
+
+    /// Whether rendering must not go on: interrupted, or the rows can't be written.
+    pub(super) fn ended(&self) -> bool {
+        let rows = self.rows.lock().unwrap_or_else(PoisonError::into_inner);
+        self.interrupted() || rows.1.is_some()
+    }
+
+    /// The rows, once the render has ended.
+    pub(super) fn finish(self) -> Result<Vec<Row>> {
         self.bar.finish_and_clear();
+        let (recorder, error) = self
+            .rows
+            .into_inner()
+            .unwrap_or_else(PoisonError::into_inner);
+        match error {
+            Some(error) => Err(error.into()),
+            None => Ok(recorder.rows().to_vec()),
+        }
+    }
+
+    /// Wall-clock and processor seconds since the start.
+    pub(super) fn seconds(&self) -> [f64; 2] {
+        [
+            self.start.elapsed().as_secs_f64(),
+            process::cpu_seconds() - self.cpu,
+        ]
     }
 
     pub(super) fn interrupted(&self) -> bool {
@@ -53,15 +133,32 @@ impl Watch {
 
 impl<const N: usize> Progress<N> for Watch {
     fn cancelled(&self) -> bool {
-        self.interrupted()
+        self.interrupted() || self.pauses()
     }
 
     fn tile_done(&self, paths: u64) {
         let before = self.done.fetch_add(paths, Ordering::Relaxed);
         self.bar.inc(paths);
-        let tenth = |done: u64| done * 10 / self.total;
+        let total = self.total.load(Ordering::Relaxed);
+        let tenth = |done: u64| done * 10 / total;
         if self.plain && tenth(before + paths) > tenth(before) {
             say(format_args!("rendered {} %", tenth(before + paths) * 10));
+        }
+    }
+
+    fn pass_done(&self, film: &Film<N>) -> ControlFlow<()> {
+        let seconds = self.seconds();
+        // a shard knows nothing of the whole
+        if film.spp() == 0 {
+            return ControlFlow::Continue(());
+        }
+        let mut rows = self.rows.lock().unwrap_or_else(PoisonError::into_inner);
+        match rows.0.push(seconds, film.spp(), &film.estimate(CONFIDENCE)) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(error) => {
+                rows.1 = Some(error);
+                ControlFlow::Break(())
+            }
         }
     }
 }

@@ -1,16 +1,60 @@
 //! What a render says of itself.
 
-use super::Traced;
-use crate::args::Render;
+use super::trace::Aimed;
+use super::{Render, Traced, strategy};
 use crate::output::say;
 use scene_io::BuiltScene;
+use scene_io::rows::{CONFIDENCE, Row};
 use scene_io::spectral::AnyScene;
 use serde::Serialize;
 use std::fmt::{self, Write};
 use std::path::PathBuf;
 
-/// Confidence of the interval around the error.
-const CONFIDENCE: f64 = 0.95;
+/// [`Row`] as JSON.
+#[derive(Serialize)]
+struct RowJson {
+    seconds: f64,
+    cpu_seconds: f64,
+    spp: u32,
+    rel_rmse: f64,
+    rel_rmse_ci: [f64; 2],
+}
+
+/// What `--target-error` came to.
+#[derive(Serialize)]
+struct TargetJson {
+    rel_rmse: f64,
+    confidence: f64,
+    reached: bool,
+    bound: f64,
+    rounds: u32,
+    pilot_seconds: f64,
+}
+
+impl From<&Aimed> for TargetJson {
+    fn from(aimed: &Aimed) -> Self {
+        Self {
+            rel_rmse: aimed.target.rel_rmse,
+            confidence: aimed.target.confidence,
+            reached: aimed.choice.reached,
+            bound: aimed.choice.bound,
+            rounds: aimed.choice.rounds,
+            pilot_seconds: aimed.seconds,
+        }
+    }
+}
+
+impl From<&Row> for RowJson {
+    fn from(row: &Row) -> Self {
+        Self {
+            seconds: row.seconds,
+            cpu_seconds: row.cpu_seconds,
+            spp: row.spp,
+            rel_rmse: row.rel_rmse,
+            rel_rmse_ci: row.ci,
+        }
+    }
+}
 
 #[derive(Serialize)]
 pub(super) struct Report {
@@ -23,8 +67,14 @@ pub(super) struct Report {
     cpu_seconds: f64,
     build_seconds: f64,
     paths_per_second: f64,
+    rmse: Option<f64>,
+    rmse_ci: Option<[f64; 2]>,
     rel_rmse: Option<f64>,
     rel_rmse_ci: Option<[f64; 2]>,
+    light_strategy: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    target: Option<TargetJson>,
+    rows: Vec<RowJson>,
     left_out: Vec<String>,
     interrupted: bool,
 }
@@ -39,19 +89,23 @@ impl Report {
         let film = traced.film.rgb();
         let estimate = film.estimate(CONFIDENCE);
         let known = estimate.rel_rmse.is_finite();
-        let main = built.materials.first();
         Self {
-            written: vec![args.output.clone(), args.output.with_extension("png")],
+            written: written(built, args),
             scene: built.file.path.display().to_string(),
-            sampler: main.map_or_else(|| "none".into(), |m| m.sampler.name.to_string()),
+            sampler: sampler(built),
             spectrum: built.file.render.spectrum.name(),
             spp: film.samples() / u64::from(built.size.0 * built.size.1).max(1),
             seconds: traced.seconds,
             cpu_seconds: traced.cpu_seconds,
             build_seconds,
             paths_per_second: traced.stats.paths as f64 / traced.seconds.max(1e-9),
+            rmse: known.then_some(estimate.rmse),
+            rmse_ci: known.then_some(estimate.rmse_ci),
             rel_rmse: known.then_some(estimate.rel_rmse),
             rel_rmse_ci: known.then_some(estimate.rel_rmse_ci),
+            light_strategy: strategy::name(built.settings.strategy),
+            target: traced.aimed.as_ref().map(TargetJson::from),
+            rows: traced.rows.iter().map(RowJson::from).collect(),
             left_out: left_out(built),
             interrupted: traced.interrupted,
         }
@@ -72,16 +126,10 @@ impl Report {
             self.build_seconds,
             self.paths_per_second / 1e6
         )?;
-        match (self.rel_rmse, self.rel_rmse_ci) {
-            (Some(error), Some([low, high])) => writeln!(
-                out,
-                "relative RMSE {:.3} %, 95 % interval {:.3} to {:.3} %",
-                100.0 * error,
-                100.0 * low,
-                100.0 * high
-            ),
-            _ => writeln!(out, "relative RMSE unknown: too few samples to estimate it"),
-        }?;
+        if let Some(target) = &self.target {
+            target.print(out)?;
+        }
+        self.print_error(out)?;
         for path in &self.written {
             writeln!(out, "wrote {}", path.display())?;
         }
@@ -94,6 +142,57 @@ impl Report {
         }
         Ok(())
     }
+}
+
+impl TargetJson {
+    fn print(&self, out: &mut String) -> fmt::Result {
+        let percent = |x: f64| 100.0 * x;
+        writeln!(
+            out,
+            "target {:.3} % {}: with {:.3} % confidence at most {:.3} %, by a pilot of {} rounds in {:.2} s",
+            percent(self.rel_rmse),
+            if self.reached { "met" } else { "not met" },
+            percent(self.confidence),
+            percent(self.bound),
+            self.rounds,
+            self.pilot_seconds
+        )
+    }
+}
+
+impl Report {
+    fn print_error(&self, out: &mut String) -> fmt::Result {
+        let (Some(rmse), Some(rmse_ci), Some(rel), Some(rel_ci)) =
+            (self.rmse, self.rmse_ci, self.rel_rmse, self.rel_rmse_ci)
+        else {
+            return writeln!(out, "relative RMSE unknown: too few samples to estimate it");
+        };
+        writeln!(
+            out,
+            "relative RMSE {:.3} %, 95 % interval {:.3} to {:.3} %; RMSE {rmse:.3e} ({:.3e} to {:.3e})",
+            100.0 * rel,
+            100.0 * rel_ci[0],
+            100.0 * rel_ci[1],
+            rmse_ci[0],
+            rmse_ci[1]
+        )
+    }
+}
+
+/// Name of the sampler of the main material.
+pub(super) fn sampler(built: &BuiltScene<AnyScene>) -> String {
+    let main = built.materials.first();
+    main.map_or_else(|| "none".into(), |m| m.sampler.name.to_string())
+}
+
+fn written(built: &BuiltScene<AnyScene>, args: &Render) -> Vec<PathBuf> {
+    let png = args.output.with_extension("png");
+    let mut all: Vec<_> = args.checkpoint.iter().collect();
+    if built.settings.shard.is_none() {
+        all.extend([&args.output, &png]);
+        all.extend(args.error_map.iter().chain(&args.rows));
+    }
+    all.into_iter().cloned().collect()
 }
 
 /// What the scene and its files do not use, and what the tracer then does without.
