@@ -12,8 +12,8 @@
 
 mod check;
 mod codegen;
-mod curet;
 mod compare;
+mod curet;
 mod fixtures;
 mod interpolation;
 mod ngan;

@@ -1,11 +1,11 @@
 //! The command line as typed: verbs, flags, help. Nothing here does work.
 
 use crate::verbs::converge::Converge;
-use crate::verbs::stress::Stress;
 use crate::verbs::fit::Fit;
-use crate::verbs::samplers::Samplers;
 use crate::verbs::merge::Merge;
 use crate::verbs::render::Render;
+use crate::verbs::samplers::Samplers;
+use crate::verbs::stress::Stress;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use scene_io::scene::InterpolationName;
 use std::path::PathBuf;
