@@ -481,7 +481,7 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
             &u,
             kernel.weigh,
         );
-        let mut keep = lasts(&chosen.carried);
+        let mut keep = lasts(&chosen.carried, f32::MIN_POSITIVE);
         let from = chosen.candidate.map(|j| all.start + j);
         self.send(kernel, block, from, &chosen.carried, &mut keep);
     }
