@@ -37,16 +37,21 @@ impl<const N: usize> Film<N> {
             (mean, variance, variance_of_variance(sums, count))
         });
         let replicates = self.replicates().min(self.spp());
-        let (mut square, mut error, mut spread) = (0.0, 0.0, 0.0);
+        let (mut square, mut error, mut spread, mut normal) = (0.0, 0.0, 0.0, 0.0);
+        let degrees = f64::from(replicates.saturating_sub(1));
         let (mut mean, mut variance) = (Vec::new(), Vec::new());
         for (m, v, s) in pixels {
             square += m.iter().map(|x| x * x).sum::<f64>();
-            error += v.iter().sum::<f64>();
+            let sum = v.iter().sum::<f64>();
+            error += sum;
             spread += s;
+            // Var(V) = 2 V^2 / d of normal values, and E(V-hat^2) = V^2 (d + 2) / d; channels of a pixel err together
+            normal += 2.0 * sum * sum / (degrees + 2.0);
             mean.push(m);
             variance.push(v);
         }
-        let effective = effective_degrees(error, spread, replicates, mean.len() * N);
+        // the free estimate is itself as noisy as its largest pixels, and small where V is: never below the normal one
+        let effective = effective_degrees(error, spread.max(normal), replicates, mean.len() * N);
         // E(mean^2) = truth^2 + variance
         let rel = |error: f64| {
             let truth = square - error;

@@ -44,6 +44,7 @@ const SETTINGS: Settings = Settings {
     filter: tracer::PixelFilter::Box,
     roulette: None,
     threads: None,
+    shard: None,
 };
 
 /// Means of the pixels of a floor under a sphere that shines.
