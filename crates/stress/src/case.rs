@@ -23,6 +23,9 @@ impl Effort {
     }
 }
 
+/// Compares a function with its reference over a grid.
+type Run = Box<dyn Fn(Effort, &mut Tally) + Send + Sync>;
+
 /// A function, its grid and reference, and what error is allowed.
 pub struct Case {
     /// Group/subject/quantity.
@@ -31,7 +34,7 @@ pub struct Case {
     pub bound: f64,
     /// Why that much.
     pub reason: &'static str,
-    run: Box<dyn Fn(Effort, &mut Tally) + Send + Sync>,
+    run: Run,
 }
 
 impl std::fmt::Debug for Case {

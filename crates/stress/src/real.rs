@@ -155,9 +155,9 @@ impl Neg for &Real {
 }
 
 impl Neg for Real {
-    type Output = Real;
-    fn neg(self) -> Real {
-        Real(-self.0)
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self(-self.0)
     }
 }
 

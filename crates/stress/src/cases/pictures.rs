@@ -30,7 +30,7 @@ pub(super) fn cases() -> Vec<Case> {
             "film/a million samples a pixel",
             1e-7,
             "sums of f64: 1e6 roundings of 1e-16, and the f32 of each sample",
-            |effort, tally| many(effort, tally),
+            many,
         ),
     ]
 }

@@ -58,10 +58,10 @@ pub(super) fn cases() -> Vec<Case> {
             1e-12,
             "Gauss rules are exact for polynomials; hundreds of terms of one sign",
             |_, tally| {
-                for n in [2_usize, 16, 64, 256] {
+                for (n, last) in [(2_usize, 3), (16, 31), (64, 127), (256, 511)] {
                     let weights: f64 = gauss_legendre(n).iter().map(|(_, w)| w).sum();
                     tally.value(weights, 2.0, 0.0, || format!("weights of {n}"));
-                    for power in [0, 1, n as i32, 2 * n as i32 - 1] {
+                    for power in [0, 1, last / 2, last] {
                         let value = hemisphere(|w| w[2].powi(power), n);
                         let exact = TAU / (f64::from(power) + 1.0);
                         tally.value(value, exact, 0.0, || format!("z^{power}, {n} nodes"));

@@ -51,8 +51,8 @@ pub(super) fn cases() -> Vec<Case> {
             watertight,
         ),
     ];
-    let solids: [(&'static str, fn() -> Shape); 3] = [
-        ("Sphere", unit_sphere),
+    let solids = [
+        ("Sphere", unit_sphere as fn() -> Shape),
         ("Quad", || floor(1.0)),
         ("Mesh", || Shape::Mesh(ball(12))),
     ];

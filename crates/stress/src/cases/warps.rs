@@ -142,7 +142,7 @@ fn follow((_, map, pdf, inverse, exact, widths): &Lobe, tally: &mut Tally) {
             // a half vector that u = 1 - 2^-53 sends to the horizon has no place left in f64
             if w.z.abs() > 1e-6 || width >= 2.0 {
                 let reference = exact(&Vector::new(w), width).to_f64();
-                tally.value(pdf(w, width), reference, 1e-60, &place);
+                tally.value(pdf(w, width), reference, 1e-60, place);
                 let back = inverse(w, width);
                 tally.error((back.x - u.x).abs(), || format!("u from w, {}", place()));
             }
@@ -167,7 +167,11 @@ fn weights(n: usize) -> Vec<(&'static str, Vec<f64>)> {
         ("all 1e300/n", vec![1e300 / n as f64; n]),
         (
             "powers of ten",
-            (0..n).map(|k| 10_f64.powi(k as i32 % 301 - 150)).collect(),
+            (-150..=150)
+                .cycle()
+                .map(|k| 10_f64.powi(k))
+                .take(n)
+                .collect(),
         ),
     ]
 }
