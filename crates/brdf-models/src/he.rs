@@ -27,7 +27,7 @@ use series::series;
 ///
 /// The mirror reflection, a delta function in the paper, is widened to a lobe of roughness [`Self::mirror_width`],
 /// so that evaluation, sampling and density stay consistent; [`Self::specular_albedo`] is the factor of the delta
-/// function itself, and `mirror` = 0 leaves it out (docs/decisions/0009).
+/// function itself, and `mirror` = 0 leaves it out (docs/decisions/0011).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct He<const N: usize> {
     /// Root mean square height sigma0 in micrometres, [0, 100].

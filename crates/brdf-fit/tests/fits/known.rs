@@ -285,6 +285,7 @@ fn what_cannot_be_fitted_is_refused_in_one_line() {
 }
 
 #[test]
+#[ignore = "takes longer than six minutes on two cores: to be made cheaper before it can guard anything"]
 fn slow_intervals_cover_the_truth() {
     // He's model is left out: as one of many its series would take most of the time
     // per family and parameter: misses among SEEDS seeds are binomial(SEEDS, 0.05) if intervals are right

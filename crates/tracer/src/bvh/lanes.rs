@@ -9,12 +9,12 @@ pub(super) struct Lanes8 {
     avx: Option<pulp::core_arch::x86::Avx>,
 }
 
-/// One axis of a slab test: planes met first and last by a ray, its origin and the inverse of its direction.
+/// One axis of a slab test: planes met first and last by a ray, its origin for either and the inverse of its direction.
 #[derive(Clone, Copy)]
 pub(super) struct Slab<'a> {
     pub(super) near: &'a [f32; 8],
     pub(super) far: &'a [f32; 8],
-    pub(super) o: f32,
+    pub(super) o: [f32; 2],
     pub(super) inverse: f32,
 }
 
@@ -36,13 +36,14 @@ impl Lanes8 {
         if let Some(avx) = self.avx {
             let (mut near, mut far) = (avx._mm256_setzero_ps(), avx._mm256_set1_ps(t_max));
             for slab in slabs {
-                let (o, inverse) = (avx._mm256_set1_ps(slab.o), avx._mm256_set1_ps(slab.inverse));
-                let at = |planes: &[f32; 8]| {
-                    avx._mm256_mul_ps(avx._mm256_sub_ps(pulp::cast(*planes), o), inverse)
+                let inverse = avx._mm256_set1_ps(slab.inverse);
+                let at = |planes: &[f32; 8], o: f32| {
+                    let off = avx._mm256_sub_ps(pulp::cast(*planes), avx._mm256_set1_ps(o));
+                    avx._mm256_mul_ps(off, inverse)
                 };
                 // of a NaN and a number both operations take the second: 0 * inf, a ray within a plane, bounds nothing
-                near = avx._mm256_max_ps(at(slab.near), near);
-                far = avx._mm256_min_ps(at(slab.far), far);
+                near = avx._mm256_max_ps(at(slab.near, slab.o[0]), near);
+                far = avx._mm256_min_ps(at(slab.far, slab.o[1]), far);
             }
             let far = avx._mm256_mul_ps(far, avx._mm256_set1_ps(WIDER));
             let met = avx._mm256_cmp_ps::<LESS_OR_EQUAL>(near, far);
@@ -51,9 +52,9 @@ impl Lanes8 {
         let (mut near, mut far) = ([0.0_f32; 8], [t_max; 8]);
         for slab in slabs {
             for k in 0..8 {
-                let a = (slab.near[k] - slab.o) * slab.inverse;
+                let a = (slab.near[k] - slab.o[0]) * slab.inverse;
                 near[k] = if a > near[k] { a } else { near[k] };
-                let b = (slab.far[k] - slab.o) * slab.inverse;
+                let b = (slab.far[k] - slab.o[1]) * slab.inverse;
                 far[k] = if b < far[k] { b } else { far[k] };
             }
         }

@@ -8,6 +8,13 @@ use glam::Vec3;
 /// Room for what a ray leaves for later: at each level all children but one, and one more.
 const STACK: usize = MAX_LEVELS * (ARITY - 1) + ARITY;
 
+/// Edge volumes start from corner - origin, rounded: a triangle can be met by a ray that passes it by so much of what
+/// entered, sideways, which the widening of distances does not cover where the ray hardly moves along an axis.
+const SLACK: f32 = 2.0 * f32::EPSILON;
+
+/// No scaled coordinate is larger.
+const LARGEST: f32 = 2.0;
+
 /// What is left for later: the entry distance's bits above, the child below. Distances are not negative, so that
 /// their bits are in order.
 pub(super) struct Stack {
@@ -63,6 +70,8 @@ impl Stack {
 /// A ray as nodes and leaves see it.
 pub(super) struct TreeRay {
     leaf: LeafRay,
+    /// The origin for planes met first and last, moved along and against the ray: widens every box.
+    o: [[f32; 3]; 2],
     inverse: [f32; 3],
     /// 0 where the low plane is met first, 1 where the high one is.
     near: [usize; 3],
@@ -72,7 +81,10 @@ impl TreeRay {
     #[inline(always)]
     pub(super) fn new(o: Vec3, d: Vec3) -> Self {
         let inverse = d.to_array().map(|x| 1.0 / x);
+        let slack = SLACK * (o.abs().max_element() + LARGEST);
+        let along = inverse.map(|x| slack.copysign(x));
         Self {
+            o: [o + Vec3::from(along), o - Vec3::from(along)].map(|o| o.to_array()),
             leaf: LeafRay {
                 o: o.to_array(),
                 d: d.to_array(),
@@ -90,7 +102,7 @@ impl TreeRay {
             Slab {
                 near: &node.planes[axis][side],
                 far: &node.planes[axis][1 - side],
-                o: self.leaf.o[axis],
+                o: [self.o[0][axis], self.o[1][axis]],
                 inverse: self.inverse[axis],
             }
         });
