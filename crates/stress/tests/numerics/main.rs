@@ -38,7 +38,7 @@ const RED: &[(&str, &str)] = &[
     ),
     (
         "shape/Mesh/watertight edges and corners",
-        "a ball moved by 3e5 of its radii, where single precision leaves gaps of 0.03",
+        "a ray through an edge or corner of a ball moved by 0.4 meets nothing: cause unknown",
     ),
 ];
 
