@@ -1,13 +1,13 @@
 //! Triangles of a leaf, tested all at once.
 
-use crate::shape::Triangle;
+use crate::shape::{ShearedRay, Triangle, edge};
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 /// Triangles in a leaf: one register of AVX.
 pub(super) const WIDTH: usize = 8;
 
-/// Up to [`WIDTH`] triangles, coordinate by coordinate; unused lanes are points, which no ray meets.
+/// Up to [`WIDTH`] triangles, coordinate by coordinate; unused lanes are NaN, which no ray meets.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C, align(32))]
 pub(super) struct Block {
@@ -15,18 +15,14 @@ pub(super) struct Block {
     corners: [[[f32; WIDTH]; 3]; 3],
 }
 
-/// A ray as leaves see it.
-#[derive(Clone, Copy)]
-pub(super) struct LeafRay {
-    pub(super) o: [f32; 3],
-    pub(super) d: [f32; 3],
-}
+/// What [`Block::hits`] says where single precision can't decide: [`Block::distance`] can.
+const UNDECIDED: f32 = -1.0;
 
 impl Block {
     /// From one to [`WIDTH`] triangles.
     pub(super) fn new(triangles: impl Iterator<Item = Triangle>) -> Self {
         let mut block = Self {
-            corners: [[[0.0; WIDTH]; 3]; 3],
+            corners: [[[f32::NAN; WIDTH]; 3]; 3],
         };
         for (k, triangle) in triangles.take(WIDTH).enumerate() {
             for (into, corner) in block.corners.iter_mut().zip(triangle.corners) {
@@ -46,54 +42,43 @@ impl Block {
         }
     }
 
-    /// Distances of the hits with t > 0, infinity for none: the edge volumes of [`Triangle::barycentric`], watertight.
+    /// Distances of the hits with t > 0, infinity for none, less than 0 where [`Self::distance`] has to be asked.
     #[inline(always)]
-    pub(super) fn hits(&self, ray: &LeafRay) -> [f32; WIDTH] {
+    pub(super) fn hits(&self, ray: &ShearedRay) -> [f32; WIDTH] {
         let mut t = [0.0; WIDTH];
-        let c = &self.corners;
-        let (o, d) = (ray.o, ray.d);
+        let corners = self
+            .corners
+            .each_ref()
+            .map(|c| ray.axes.map(|axis| &c[axis]));
         for k in 0..WIDTH {
-            let v0 = [c[0][0][k] - o[0], c[0][1][k] - o[1], c[0][2][k] - o[2]];
-            let v1 = [c[1][0][k] - o[0], c[1][1][k] - o[1], c[1][2][k] - o[2]];
-            let v2 = [c[2][0][k] - o[0], c[2][1][k] - o[1], c[2][2][k] - o[2]];
-            let w0 = dot(cross(sub(v1, v2), add(v1, v2)), d);
-            let w1 = dot(cross(sub(v2, v0), add(v2, v0)), d);
-            let w2 = dot(cross(sub(v0, v1), add(v0, v1)), d);
-            let low = if w0 < w1 { w0 } else { w1 };
-            let low = if low < w2 { low } else { w2 };
-            let high = if w0 > w1 { w0 } else { w1 };
-            let high = if high > w2 { high } else { w2 };
-            let normal = cross(sub(v1, v0), sub(v2, v0));
-            let at = dot(v0, normal) / dot(normal, d);
-            let met = !((low < 0.0) & (high > 0.0)) & (at > 0.0);
-            t[k] = if met { at } else { f32::INFINITY };
+            let [a, b, c] = corners.map(|c| ray.shear(c.map(|lanes| lanes[k])));
+            let w = [edge(b, c), edge(c, a), edge(a, b)];
+            let low = if w[0] < w[1] { w[0] } else { w[1] };
+            let low = if low < w[2] { low } else { w[2] };
+            let high = if w[0] > w[1] { w[0] } else { w[1] };
+            let high = if high > w[2] { high } else { w[2] };
+            let sum = w[0] + w[1] + w[2];
+            let at = (w[0] * a[2] + w[1] * b[2] + w[2] * c[2]) / sum * ray.inverse;
+            let at = if at > 0.0 { at } else { f32::INFINITY };
+            let at = if sum == 0.0 { UNDECIDED } else { at };
+            t[k] = if (low < 0.0) & (high > 0.0) {
+                f32::INFINITY
+            } else {
+                at
+            };
         }
         t
     }
-}
 
-#[inline(always)]
-fn sub(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-#[inline(always)]
-fn add(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
-
-#[inline(always)]
-fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-#[inline(always)]
-fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    /// The distance that lane `k` of [`Self::hits`] stands for; in double precision where that one could not decide.
+    #[inline(always)]
+    pub(super) fn distance(&self, k: usize, hit: f32, ray: &ShearedRay) -> f32 {
+        if hit < 0.0 {
+            self.triangle(k).distance(ray).unwrap_or(f32::INFINITY)
+        } else {
+            hit
+        }
+    }
 }
 
 #[cfg(test)]
@@ -111,10 +96,7 @@ mod tests {
     fn lanes_are_met_on_their_own_and_spare_ones_never() {
         let at = |z: f32| triangle([[-1.0, -1.0, z], [1.0, -1.0, z], [0.0, 1.0, z]]);
         let block = Block::new([at(3.0), at(-2.0), at(5.0)].into_iter());
-        let ray = LeafRay {
-            o: [0.0, 0.0, 0.0],
-            d: [0.0, 0.0, 1.0],
-        };
+        let ray = ShearedRay::new(Vec3::ZERO, Vec3::Z);
         let t = block.hits(&ray);
         assert!((t[0] - 3.0).abs() < 1e-6, "ahead: {}", t[0]);
         assert!((t[2] - 5.0).abs() < 1e-6, "behind the first: {}", t[2]);
@@ -138,12 +120,31 @@ mod tests {
         for i in 1..1000_u16 {
             // a point on the edge, rounded
             let p = a + (b - a) * (f32::from(i) / 1000.0);
-            let ray = LeafRay {
-                o: [0.0; 3],
-                d: p.normalize().to_array(),
-            };
+            let ray = ShearedRay::new(Vec3::ZERO, p.normalize());
             let t = block.hits(&ray);
             assert!(t[0].min(t[1]) < 10.0, "slipped through at {p}");
         }
+    }
+
+    #[test]
+    fn a_ray_through_a_corner_meets_one_of_the_triangles_around_it() {
+        let mut slipped = 0;
+        for i in 0..20_000_u64 {
+            let number = |j: u64| (crate::math::mix(16 * i + j) >> 40) as f32 / 8_388_608.0 - 1.0;
+            let o = Vec3::new(number(0), number(1), number(2)) * 0.4;
+            let corner = o + Vec3::new(number(3), number(4), number(5)) + Vec3::Z * 2.0;
+            let around = |k: u64| {
+                let phi = (k % 6) as f32 * std::f32::consts::TAU / 6.0;
+                let height = 0.1 * number(6 + k % 6);
+                corner + Vec3::new(phi.cos(), phi.sin(), height) * 0.2
+            };
+            let fan = (0..6).map(|k| Triangle {
+                corners: [corner, around(k), around(k + 1)],
+            });
+            let d = (corner.as_dvec3() - o.as_dvec3()).normalize().as_vec3();
+            let t = Block::new(fan).hits(&ShearedRay::new(o, d));
+            slipped += usize::from(!t.iter().any(|t| *t < 10.0));
+        }
+        assert_eq!(slipped, 0, "of 20,000 rays through corners");
     }
 }

@@ -9,7 +9,7 @@ mod tree;
 
 use crate::math::U;
 use crate::path::{HitLanes, NONE, RayLanes};
-use crate::shape::Triangle;
+use crate::shape::{ShearedRay, Triangle};
 use block::{Block, WIDTH};
 use brdf::LANES;
 use glam::{Vec3, Vec3A};
@@ -97,7 +97,7 @@ impl Bvh {
     pub(crate) fn point(&self, index: u32, o: Vec3, d: Vec3) -> TrianglePoint {
         let triangle = self.triangle(index);
         let [a, b, c] = triangle.corners;
-        let weights = triangle.barycentric(o * self.scale, d);
+        let weights = triangle.barycentric(&ShearedRay::new(o * self.scale, d));
         TrianglePoint {
             p: (a * weights[0] + b * weights[1] + c * weights[2]) * self.unscale,
             normal: triangle.cross().normalize_or(Vec3::Z),

@@ -1,16 +1,19 @@
 //! Rays through the eight-wide tree, one after the other, nearest child first.
 
-use super::block::{Block, LeafRay, WIDTH};
+use super::block::{Block, WIDTH};
 use super::lanes::{Lanes8, Slab};
 use super::tree::{ARITY, LEAF, MAX_LEVELS, Node};
+use crate::shape::ShearedRay;
 use glam::Vec3;
 
 /// Room for what a ray leaves for later: at each level all children but one, and one more.
 const STACK: usize = MAX_LEVELS * (ARITY - 1) + ARITY;
 
-/// Edge volumes start from corner - origin, rounded: a triangle can be met by a ray that passes it by so much of what
-/// entered, sideways, which the widening of distances does not cover where the ray hardly moves along an axis.
-const SLACK: f32 = 2.0 * f32::EPSILON;
+/// How far sideways of a ray the sheared corners of a triangle may be off, relative to the largest coordinate of a corner
+/// from the origin: in half epsilons one for the subtraction of either coordinate, two for the slope, one for its
+/// product and two for the last subtraction; one more for the origin moved by it. These are seven, eight, and two for
+/// products of them. The widening of distances does not cover it where the ray hardly moves along an axis.
+const SLACK: f32 = 5.0 * f32::EPSILON;
 
 /// No scaled coordinate is larger.
 const LARGEST: f32 = 2.0;
@@ -69,7 +72,7 @@ impl Stack {
 
 /// A ray as nodes and leaves see it.
 pub(super) struct TreeRay {
-    leaf: LeafRay,
+    leaf: ShearedRay,
     /// The origin for planes met first and last, moved along and against the ray: widens every box.
     o: [[f32; 3]; 2],
     inverse: [f32; 3],
@@ -85,10 +88,7 @@ impl TreeRay {
         let along = inverse.map(|x| slack.copysign(x));
         Self {
             o: [o + Vec3::from(along), o - Vec3::from(along)].map(|o| o.to_array()),
-            leaf: LeafRay {
-                o: o.to_array(),
-                d: d.to_array(),
-            },
+            leaf: ShearedRay::new(o, d),
             inverse,
             near: inverse.map(|x| usize::from(x.is_sign_negative())),
         }
@@ -141,11 +141,13 @@ impl Tree<'_> {
                 }
             } else {
                 let block = child & !LEAF;
-                let t = self.blocks[block as usize].hits(&ray.leaf);
-                for k in bits(self.lanes.below(&t, t_max)) {
+                let triangles = &self.blocks[block as usize];
+                let hits = triangles.hits(&ray.leaf);
+                for k in bits(self.lanes.below(&hits, t_max)) {
                     let id = block * WIDTH as u32 + k as u32;
-                    if t[k] < t_max && id != skip {
-                        t_max = t[k];
+                    let t = triangles.distance(k, hits[k], &ray.leaf);
+                    if t < t_max && id != skip {
+                        t_max = t;
                         best = Some((t_max, id));
                     }
                 }
@@ -181,9 +183,11 @@ impl Tree<'_> {
                 }
             } else {
                 let block = child & !LEAF;
-                let t = self.blocks[block as usize].hits(&ray.leaf);
-                for k in bits(self.lanes.below(&t, t_max)) {
-                    if !skip.contains(&(block * WIDTH as u32 + k as u32)) {
+                let triangles = &self.blocks[block as usize];
+                let hits = triangles.hits(&ray.leaf);
+                for k in bits(self.lanes.below(&hits, t_max)) {
+                    let other = !skip.contains(&(block * WIDTH as u32 + k as u32));
+                    if other && triangles.distance(k, hits[k], &ray.leaf) < t_max {
                         return true;
                     }
                 }

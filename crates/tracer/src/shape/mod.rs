@@ -7,7 +7,7 @@ mod triangle;
 
 pub(crate) use quad::Quad;
 pub(crate) use sphere::Sphere;
-pub(crate) use triangle::Triangle;
+pub(crate) use triangle::{ShearedRay, Triangle, edge};
 
 pub use mesh::Mesh;
 

@@ -1,6 +1,14 @@
-//! The triangle: a test by edge volumes that is watertight, since two triangles compute a shared edge alike.
+//! The triangle, and the test whether a ray meets it, which is watertight [Woop2013].
+//!
+//! The corners, relative to the ray's origin, are sheared along the axis where the ray moves most until the ray is that
+//! axis. Each corner is rounded once, the same for all triangles that share it: from there on a mesh without gaps is
+//! a plane picture without gaps, and the question is which of its triangles hold the origin. [`edge`] is the
+//! difference of two products; rounding keeps the order of two numbers, so that its sign is never wrong: it is
+//! right, or the result is 0. As 0 counts for either side, every triangle whose picture holds the origin says so,
+//! but for those whose picture has no area, whose neighbours hold what it holds. Where all three edges are 0, the same
+//! in double precision, which is exact for products of singles, tells a triangle without area from a narrow one.
 
-use glam::{DVec3, Vec3, Vec3A};
+use glam::{DVec3, Vec3};
 
 /// A triangle in world space.
 #[derive(Clone, Copy, Debug)]
@@ -8,31 +16,95 @@ pub(crate) struct Triangle {
     pub(crate) corners: [Vec3; 3],
 }
 
-impl Triangle {
-    /// Volumes spanned by the ray and each edge, in the order of the corner opposite to it, relative to `o`.
-    ///
-    /// (b - a) x (a + b) . d changes its sign exactly, bit for bit, when a and b trade places [Embree].
+/// A ray as triangles see it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ShearedRay {
+    /// Two axes, and the one along which the ray moves most.
+    pub(crate) axes: [usize; 3],
+    /// The origin by these axes.
+    o: [f32; 3],
+    /// How far the ray moves along the first two for a step along the third: at most one.
+    slope: [f32; 2],
+    /// Distance for a step along the third.
+    pub(crate) inverse: f32,
+}
+
+impl ShearedRay {
+    /// The ray `o + t d`.
     #[inline(always)]
-    fn volumes(&self, o: Vec3A, d: Vec3A) -> ([f32; 3], [Vec3A; 3]) {
-        let [v0, v1, v2] = self.corners.map(|c| Vec3A::from(c) - o);
-        let w = [
-            (v1 - v2).cross(v1 + v2).dot(d),
-            (v2 - v0).cross(v2 + v0).dot(d),
-            (v0 - v1).cross(v0 + v1).dot(d),
-        ];
-        (w, [v0, v1, v2])
+    pub(crate) fn new(o: Vec3, d: Vec3) -> Self {
+        let (o, d) = (o.to_array(), d.to_array());
+        let size = d.map(f32::abs);
+        let axes = if size[2] >= size[0] && size[2] >= size[1] {
+            [0, 1, 2]
+        } else if size[1] >= size[0] {
+            [2, 0, 1]
+        } else {
+            [1, 2, 0]
+        };
+        let inverse = 1.0 / d[axes[2]];
+        Self {
+            axes,
+            o: axes.map(|axis| o[axis]),
+            slope: [d[axes[0]] * inverse, d[axes[1]] * inverse],
+            inverse,
+        }
+    }
+
+    /// A corner, given by [`Self::axes`], where the ray is the third axis.
+    #[inline(always)]
+    pub(crate) fn shear(&self, corner: [f32; 3]) -> [f32; 3] {
+        let z = corner[2] - self.o[2];
+        [
+            corner[0] - self.o[0] - self.slope[0] * z,
+            corner[1] - self.o[1] - self.slope[1] * z,
+            z,
+        ]
+    }
+}
+
+/// Twice the area that an edge spans with the ray, seen along it: of `a` to `b` and of `b` to `a` the same but for the sign.
+#[inline(always)]
+pub(crate) fn edge(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+impl Triangle {
+    /// Sheared corners, and [`edge`]s opposite to them without rounding.
+    #[inline]
+    fn edges(&self, ray: &ShearedRay) -> ([[f32; 3]; 3], [f64; 3]) {
+        let corners = self
+            .corners
+            .map(|c| ray.shear(ray.axes.map(|axis| c[axis])));
+        let edge = |i: usize, j: usize| {
+            let [a, b] = [corners[i], corners[j]].map(|c| c.map(f64::from));
+            a[0] * b[1] - a[1] * b[0]
+        };
+        (corners, [edge(1, 2), edge(2, 0), edge(0, 1)])
+    }
+
+    /// Where a ray meets the inside or the rim; `None` also if it sees the triangle edge-on.
+    #[inline(never)]
+    pub(crate) fn distance(&self, ray: &ShearedRay) -> Option<f32> {
+        let (corners, w) = self.edges(ray);
+        let sum = w[0] + w[1] + w[2];
+        let inside = w.iter().all(|w| w * sum >= 0.0);
+        let along: f64 = (corners.iter().zip(w))
+            .map(|(c, w)| f64::from(c[2]) * w)
+            .sum();
+        let t = (along / sum * f64::from(ray.inverse)) as f32;
+        (inside && sum != 0.0 && t > 0.0).then_some(t)
     }
 
     /// Weights of the corners where the ray meets the plane, summing to one.
     #[inline]
-    pub(crate) fn barycentric(&self, o: Vec3, d: Vec3) -> [f32; 3] {
-        let (w, _) = self.volumes(o.into(), d.into());
+    pub(crate) fn barycentric(&self, ray: &ShearedRay) -> [f32; 3] {
+        let (_, w) = self.edges(ray);
         let sum = w[0] + w[1] + w[2];
-        if sum.abs() > 0.0 {
-            w.map(|x| (x / sum).clamp(0.0, 1.0))
-        } else {
-            [1.0 / 3.0; 3]
+        if sum == 0.0 {
+            return [1.0 / 3.0; 3];
         }
+        w.map(|w| (w / sum).clamp(0.0, 1.0) as f32)
     }
 
     /// Twice the area times the unit normal.
