@@ -1,6 +1,7 @@
 //! Triangles of a leaf, tested all at once.
 
-use crate::shape::{ShearedRay, Triangle, edge};
+use super::lanes::Lanes8;
+use crate::shape::{ShearedRay, Triangle};
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
@@ -14,9 +15,6 @@ pub(super) struct Block {
     /// Corner, coordinate, lane.
     corners: [[[f32; WIDTH]; 3]; 3],
 }
-
-/// What [`Block::hits`] says where single precision can't decide: [`Block::distance`] can.
-const UNDECIDED: f32 = -1.0;
 
 impl Block {
     /// From one to [`WIDTH`] triangles.
@@ -44,30 +42,9 @@ impl Block {
 
     /// Distances of the hits with t > 0, infinity for none, less than 0 where [`Self::distance`] has to be asked.
     #[inline(always)]
-    pub(super) fn hits(&self, ray: &ShearedRay) -> [f32; WIDTH] {
-        let mut t = [0.0; WIDTH];
-        let corners = self
-            .corners
-            .each_ref()
-            .map(|c| ray.axes.map(|axis| &c[axis]));
-        for k in 0..WIDTH {
-            let [a, b, c] = corners.map(|c| ray.shear(c.map(|lanes| lanes[k])));
-            let w = [edge(b, c), edge(c, a), edge(a, b)];
-            let low = if w[0] < w[1] { w[0] } else { w[1] };
-            let low = if low < w[2] { low } else { w[2] };
-            let high = if w[0] > w[1] { w[0] } else { w[1] };
-            let high = if high > w[2] { high } else { w[2] };
-            let sum = w[0] + w[1] + w[2];
-            let at = (w[0] * a[2] + w[1] * b[2] + w[2] * c[2]) / sum * ray.inverse;
-            let at = if at > 0.0 { at } else { f32::INFINITY };
-            let at = if sum == 0.0 { UNDECIDED } else { at };
-            t[k] = if (low < 0.0) & (high > 0.0) {
-                f32::INFINITY
-            } else {
-                at
-            };
-        }
-        t
+    pub(super) fn hits(&self, lanes: Lanes8, ray: &ShearedRay) -> [f32; WIDTH] {
+        let corner = |c: &'_ [[f32; WIDTH]; 3]| ray.axes.map(|axis| c[axis]);
+        lanes.meet(ray, self.corners.each_ref().map(corner))
     }
 
     /// The distance that lane `k` of [`Self::hits`] stands for; in double precision where that one could not decide.
@@ -97,7 +74,7 @@ mod tests {
         let at = |z: f32| triangle([[-1.0, -1.0, z], [1.0, -1.0, z], [0.0, 1.0, z]]);
         let block = Block::new([at(3.0), at(-2.0), at(5.0)].into_iter());
         let ray = ShearedRay::new(Vec3::ZERO, Vec3::Z);
-        let t = block.hits(&ray);
+        let t = block.hits(Lanes8::detect(), &ray);
         assert!((t[0] - 3.0).abs() < 1e-6, "ahead: {}", t[0]);
         assert!((t[2] - 5.0).abs() < 1e-6, "behind the first: {}", t[2]);
         for k in [1, 3, 4, 5, 6, 7] {
@@ -121,7 +98,7 @@ mod tests {
             // a point on the edge, rounded
             let p = a + (b - a) * (f32::from(i) / 1000.0);
             let ray = ShearedRay::new(Vec3::ZERO, p.normalize());
-            let t = block.hits(&ray);
+            let t = block.hits(Lanes8::detect(), &ray);
             assert!(t[0].min(t[1]) < 10.0, "slipped through at {p}");
         }
     }
@@ -142,7 +119,7 @@ mod tests {
                 corners: [corner, around(k), around(k + 1)],
             });
             let d = (corner.as_dvec3() - o.as_dvec3()).normalize().as_vec3();
-            let t = Block::new(fan).hits(&ShearedRay::new(o, d));
+            let t = Block::new(fan).hits(Lanes8::detect(), &ShearedRay::new(o, d));
             slipped += usize::from(!t.iter().any(|t| *t < 10.0));
         }
         assert_eq!(slipped, 0, "of 20,000 rays through corners");

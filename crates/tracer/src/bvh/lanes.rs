@@ -2,6 +2,8 @@
 //!
 //! The compiler makes no mask of eight comparisons by itself, and lays out the slab test badly: hence by hand.
 
+use crate::shape::{Number, ShearedRay, meet};
+
 /// What the machine offers.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lanes8 {
@@ -64,6 +66,17 @@ impl Lanes8 {
         )
     }
 
+    /// [`meet`] for eight triangles: corner, coordinate, lane.
+    #[inline(always)]
+    pub(super) fn meet(self, ray: &ShearedRay, corners: [[[f32; 8]; 3]; 3]) -> [f32; 8] {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(avx) = self.avx {
+            let eight = |x| Eight(avx, pulp::cast(x));
+            return pulp::cast(meet(ray, corners.map(|c| c.map(eight))).1);
+        }
+        std::array::from_fn(|k| meet(ray, corners.map(|c| c.map(|x| x[k]))))
+    }
+
     /// A bit for each number below `limit`.
     #[inline(always)]
     pub(super) fn below(self, x: &[f32; 8], limit: f32) -> u32 {
@@ -81,8 +94,102 @@ const LESS: i32 = std::arch::x86_64::_CMP_LT_OQ;
 #[cfg(target_arch = "x86_64")]
 const LESS_OR_EQUAL: i32 = std::arch::x86_64::_CMP_LE_OQ;
 
+/// Eight numbers in a register of AVX.
+#[cfg(target_arch = "x86_64")]
+#[derive(Clone, Copy)]
+struct Eight(pulp::core_arch::x86::Avx, std::arch::x86_64::__m256);
+
+#[cfg(target_arch = "x86_64")]
+macro_rules! operator {
+    ($operator:ident, $name:ident, $instruction:ident) => {
+        impl std::ops::$operator for Eight {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $name(self, other: Self) -> Self {
+                Self(self.0, self.0.$instruction(self.1, other.1))
+            }
+        }
+    };
+}
+
+#[cfg(target_arch = "x86_64")]
+operator!(Add, add, _mm256_add_ps);
+#[cfg(target_arch = "x86_64")]
+operator!(Sub, sub, _mm256_sub_ps);
+#[cfg(target_arch = "x86_64")]
+operator!(Mul, mul, _mm256_mul_ps);
+#[cfg(target_arch = "x86_64")]
+operator!(Div, div, _mm256_div_ps);
+
+#[cfg(target_arch = "x86_64")]
+impl Number for Eight {
+    #[inline(always)]
+    fn splat(self, x: f32) -> Self {
+        Self(self.0, self.0._mm256_set1_ps(x))
+    }
+
+    #[inline(always)]
+    fn lesser(self, other: Self) -> Self {
+        Self(self.0, self.0._mm256_min_ps(self.1, other.1))
+    }
+
+    #[inline(always)]
+    fn greater(self, other: Self) -> Self {
+        Self(self.0, self.0._mm256_max_ps(self.1, other.1))
+    }
+
+    #[inline(always)]
+    fn if_positive(self, yes: Self, no: Self) -> Self {
+        let zero = self.0._mm256_setzero_ps();
+        let met = self.0._mm256_cmp_ps::<LESS>(zero, self.1);
+        Self(self.0, self.0._mm256_blendv_ps(no.1, yes.1, met))
+    }
+
+    #[inline(always)]
+    fn if_zero(self, yes: Self, no: Self) -> Self {
+        let zero = self.0._mm256_setzero_ps();
+        let met = self.0._mm256_cmp_ps::<EQUAL>(zero, self.1);
+        Self(self.0, self.0._mm256_blendv_ps(no.1, yes.1, met))
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+const EQUAL: i32 = std::arch::x86_64::_CMP_EQ_OQ;
+
 /// A bit for each that is true.
 #[inline(always)]
 fn mask(set: [bool; 8]) -> u32 {
     (0..8).fold(0, |bits, k| bits | (u32::from(set[k]) << k))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+
+    #[test]
+    fn both_ways_give_the_same_bits() {
+        #[cfg(target_arch = "x86_64")]
+        let plain = Lanes8 { avx: None };
+        #[cfg(not(target_arch = "x86_64"))]
+        let plain = Lanes8 {};
+        let number = |i: u64| (crate::math::mix(i) >> 40) as f32 / 8_388_608.0 - 1.0;
+        let mut met = 0;
+        for i in 0..2_000_u64 {
+            let at = |j: u64| number(128 * i + j);
+            let corners = [0, 1, 2].map(|corner: u64| {
+                [0, 1, 2]
+                    .map(|axis: u64| std::array::from_fn(|k| at(9 * k as u64 + 3 * corner + axis)))
+            });
+            // on every third turn a ray within a plane of coordinates, whose edges may vanish
+            let x = if i % 3 == 0 { 0.0 } else { at(100) };
+            let d = Vec3::new(x, at(101), at(102)).normalize_or(Vec3::Y);
+            let ray = ShearedRay::new(Vec3::new(x, at(103), at(104)), d);
+            let [a, b] = [plain, Lanes8::detect()].map(|lanes| lanes.meet(&ray, corners));
+            assert_eq!(a.map(f32::to_bits), b.map(f32::to_bits), "ray {i}");
+            met += a.iter().filter(|t| t.is_finite()).count();
+        }
+        assert!(met > 100, "only {met} hits");
+    }
 }

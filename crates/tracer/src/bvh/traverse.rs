@@ -142,7 +142,7 @@ impl Tree<'_> {
             } else {
                 let block = child & !LEAF;
                 let triangles = &self.blocks[block as usize];
-                let hits = triangles.hits(&ray.leaf);
+                let hits = triangles.hits(self.lanes, &ray.leaf);
                 for k in bits(self.lanes.below(&hits, t_max)) {
                     let id = block * WIDTH as u32 + k as u32;
                     let t = triangles.distance(k, hits[k], &ray.leaf);
@@ -184,7 +184,7 @@ impl Tree<'_> {
             } else {
                 let block = child & !LEAF;
                 let triangles = &self.blocks[block as usize];
-                let hits = triangles.hits(&ray.leaf);
+                let hits = triangles.hits(self.lanes, &ray.leaf);
                 for k in bits(self.lanes.below(&hits, t_max)) {
                     let other = !skip.contains(&(block * WIDTH as u32 + k as u32));
                     if other && triangles.distance(k, hits[k], &ray.leaf) < t_max {

@@ -7,7 +7,7 @@ mod triangle;
 
 pub(crate) use quad::Quad;
 pub(crate) use sphere::Sphere;
-pub(crate) use triangle::{ShearedRay, Triangle, edge};
+pub(crate) use triangle::{Number, ShearedRay, Triangle, meet};
 
 pub use mesh::Mesh;
 

@@ -9,6 +9,7 @@
 //! in double precision, which is exact for products of singles, tells a triangle without area from a narrow one.
 
 use glam::{DVec3, Vec3};
+use std::ops::{Add, Div, Mul, Sub};
 
 /// A triangle in world space.
 #[derive(Clone, Copy, Debug)]
@@ -26,7 +27,7 @@ pub(crate) struct ShearedRay {
     /// How far the ray moves along the first two for a step along the third: at most one.
     slope: [f32; 2],
     /// Distance for a step along the third.
-    pub(crate) inverse: f32,
+    inverse: f32,
 }
 
 impl ShearedRay {
@@ -51,21 +52,79 @@ impl ShearedRay {
         }
     }
 
-    /// A corner, given by [`Self::axes`], where the ray is the third axis.
+    /// A corner, given by [`Self::axes`], where the ray is the third axis; for one triangle or several.
     #[inline(always)]
-    pub(crate) fn shear(&self, corner: [f32; 3]) -> [f32; 3] {
-        let z = corner[2] - self.o[2];
-        [
-            corner[0] - self.o[0] - self.slope[0] * z,
-            corner[1] - self.o[1] - self.slope[1] * z,
-            z,
-        ]
+    pub(crate) fn shear<T: Number>(&self, corner: [T; 3]) -> [T; 3] {
+        let splat = |x: f32| corner[0].splat(x);
+        let z = corner[2] - splat(self.o[2]);
+        let across = |i: usize| corner[i] - splat(self.o[i]) - splat(self.slope[i]) * z;
+        [across(0), across(1), z]
     }
+}
+
+/// A number of single precision, or several in lanes.
+pub(crate) trait Number:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+{
+    /// `x` in every lane.
+    fn splat(self, x: f32) -> Self;
+    /// The lesser; the second of a NaN and a number.
+    fn lesser(self, other: Self) -> Self;
+    /// The greater; the second of a NaN and a number.
+    fn greater(self, other: Self) -> Self;
+    /// `yes` where this is more than 0, else `no`.
+    fn if_positive(self, yes: Self, no: Self) -> Self;
+    /// `yes` where this is 0, else `no`.
+    fn if_zero(self, yes: Self, no: Self) -> Self;
+}
+
+impl Number for f32 {
+    #[inline(always)]
+    fn splat(self, x: f32) -> Self {
+        x
+    }
+
+    #[inline(always)]
+    fn lesser(self, other: Self) -> Self {
+        if self < other { self } else { other }
+    }
+
+    #[inline(always)]
+    fn greater(self, other: Self) -> Self {
+        if self > other { self } else { other }
+    }
+
+    #[inline(always)]
+    fn if_positive(self, yes: Self, no: Self) -> Self {
+        if self > 0.0 { yes } else { no }
+    }
+
+    #[inline(always)]
+    fn if_zero(self, yes: Self, no: Self) -> Self {
+        if self == 0.0 { yes } else { no }
+    }
+}
+
+/// Distance at which a ray meets a triangle with these corners, given by [`ShearedRay::axes`], if more than 0;
+/// infinity for none and for corners that are NaN; -1 where single precision can't decide: [`Triangle::distance`] can.
+#[inline(always)]
+pub(crate) fn meet<T: Number>(ray: &ShearedRay, corners: [[T; 3]; 3]) -> T {
+    let [a, b, c] = corners.map(|corner| ray.shear(corner));
+    let splat = |x: f32| a[0].splat(x);
+    let w = [edge(b, c), edge(c, a), edge(a, b)];
+    let low = w[0].lesser(w[1]).lesser(w[2]);
+    let high = w[0].greater(w[1]).greater(w[2]);
+    let sum = w[0] + w[1] + w[2];
+    let t = (w[0] * a[2] + w[1] * b[2] + w[2] * c[2]) / sum * splat(ray.inverse);
+    let none = splat(f32::INFINITY);
+    let met = sum.if_zero(splat(-1.0), t.if_positive(t, none));
+    let outside = (splat(0.0) - low).if_positive(none, met);
+    high.if_positive(outside, met)
 }
 
 /// Twice the area that an edge spans with the ray, seen along it: of `a` to `b` and of `b` to `a` the same but for the sign.
 #[inline(always)]
-pub(crate) fn edge(a: [f32; 3], b: [f32; 3]) -> f32 {
+fn edge<T: Number>(a: [T; 3], b: [T; 3]) -> T {
     a[0] * b[1] - a[1] * b[0]
 }
 
