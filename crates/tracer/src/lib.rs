@@ -23,6 +23,7 @@ mod estimate;
 mod film;
 mod filter;
 mod geometry;
+mod interval;
 mod kernel;
 mod light;
 mod math;

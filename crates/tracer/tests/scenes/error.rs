@@ -1,7 +1,7 @@
 //! The error a render reports is the error it makes.
 
 use crate::common::{camera, empty, floor, glossy, grey, polished, quad, shining, sphere};
-use tracer::{Film, LeftOut, Object, Scene, Settings, Strategy, render};
+use tracer::{Estimate, Film, LeftOut, Object, Scene, Settings, Strategy, render};
 
 fn scene() -> Scene<1> {
     let mut d = empty(
@@ -91,7 +91,10 @@ fn rare() -> Scene<1> {
 
 /// How often intervals of 95 % hold the truth, over many renders.
 struct Coverage {
-    pictures: f64,
+    /// Of the RMSE.
+    absolute: f64,
+    /// Of the relative RMSE.
+    relative: f64,
     pixels: f64,
 }
 
@@ -126,30 +129,38 @@ fn coverage(scene: &Scene<1>, strategy: Strategy) -> Coverage {
         }
     }
     // what such a render errs by, known to 1 % by all of them together; the reference adds its own error to each
-    let expected = ((squares / RENDERS as f64 - own) / square).sqrt();
-    let held = estimates.iter().filter(|e| {
-        let [low, high] = e.rel_rmse_ci;
-        low <= expected && expected <= high
-    });
+    let expected = squares / RENDERS as f64 - own;
+    let [rmse, rel_rmse] = [truth.len() as f64, square].map(|over| (expected / over).sqrt());
+    let share = |held: &dyn Fn(&Estimate<1>) -> bool| {
+        estimates.iter().filter(|e| held(e)).count() as f64 / RENDERS as f64
+    };
+    let within = |[low, high]: [f64; 2], value: f64| low <= value && value <= high;
     Coverage {
-        pictures: held.count() as f64 / RENDERS as f64,
+        absolute: share(&|e| within(e.rmse_ci, rmse)),
+        relative: share(&|e| within(e.rel_rmse_ci, rel_rmse)),
         pixels: inside / counted,
     }
 }
 
 #[test]
 fn slow_intervals_cover_the_truth_as_often_as_they_say() {
-    // 400 renders know a share of 0.95 to 0.011: three of that. A light met once in hundreds of samples is not known
-    // from eight replicates of 32: such intervals are too short, as docs/error.md says; measured 0.868 +- 0.017
+    // 400 renders know a share of 0.95 to 0.011; three of that about the 93 to 97 % that are asked for would hold 0.90, so
+    // two: a right interval fails one of the six in a hundred runs, and the seeds are fixed
+    let band = 0.93 - 0.011 * 2.0..=0.97 + 0.011 * 2.0;
     let scenes = [
-        ("easy", scene(), Strategy::Mis, 0.917..=0.983),
-        ("narrow lobe", narrow(), Strategy::Mis, 0.917..=0.983),
-        ("rare light", rare(), Strategy::BsdfOnly, 0.817..=0.983),
+        ("easy", scene(), Strategy::Mis),
+        ("narrow lobe", narrow(), Strategy::Mis),
+        ("rare light", rare(), Strategy::BsdfOnly),
     ];
-    for (what, scene, strategy, share) in &scenes {
+    for (what, scene, strategy) in &scenes {
         let c = coverage(scene, *strategy);
-        println!("{what}: pictures {:.3}, pixels {:.3}", c.pictures, c.pixels);
-        assert!(share.contains(&c.pictures), "{what}: {}", c.pictures);
+        println!(
+            "{what}: rmse {:.3}, relative {:.3}, pixels {:.3}",
+            c.absolute, c.relative, c.pixels
+        );
+        for share in [c.absolute, c.relative] {
+            assert!(band.contains(&share), "{what}: {share}");
+        }
     }
 }
 

@@ -1,0 +1,257 @@
+//! Intervals about the error of a picture: what pairs of replicates say about the noise of the error estimate itself.
+
+/// Sums over pixels of unbiased estimates from pairs of replicates x_i: V, the squared error; T, the squared truth; and
+/// what both vary by.
+///
+/// In a pixel both are U-statistics of order two: V = U(D), D_ij = |x_i - x_j|^2 / (2 R), and T = U(G), G_ij = x_i . x_j. Two
+/// terms that share no replicate are independent, so that the mean of A_ij B_kl over disjoint pairs estimates
+/// E(U(A)) E(U(B)) without bias, and Cov(U(A), U(B)) = E(U(A) U(B)) - E(U(A)) E(U(B)) [Hoeffding1948]. Channels enter
+/// together, so their correlation is in it; heavy tails are, as far as the replicates show them. Pixels are independent.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Pairs {
+    pub(crate) var_v: f64,
+    pub(crate) cov: f64,
+    pub(crate) var_t: f64,
+    /// What `var_v` would be of normal replicates with the same variances: 2 V^2 / (R - 1), from V^2 (R + 1) / (R - 1) = E(V-hat^2).
+    pub(crate) normal: f64,
+    /// Sum of squares of what the pixels' `var_v` is above normal.
+    pub(crate) excess: f64,
+}
+
+impl Pairs {
+    /// Of one pixel, from its sums by replicate; `None` below four replicates.
+    pub(crate) fn of<const N: usize>(
+        sums: &[[f64; N]],
+        count: impl Fn(u32) -> u32,
+    ) -> Option<Self> {
+        let mut x = Vec::with_capacity(sums.len());
+        for (r, sum) in (0..).zip(sums) {
+            if count(r) > 0 {
+                x.push(sum.map(|s| s / f64::from(count(r))));
+            }
+        }
+        if x.len() < 4 {
+            return None;
+        }
+        let mut products = Products::new(x.len());
+        for (i, a) in x.iter().enumerate() {
+            for (j, b) in x.iter().enumerate().skip(i + 1) {
+                let (mut d, mut g) = (0.0, 0.0);
+                for (a, b) in a.iter().zip(b) {
+                    d += 0.5 * (a - b) * (a - b);
+                    g += a * b;
+                }
+                products.add([i, j], [d / x.len() as f64, g]);
+            }
+        }
+        let var_v = products.covariance(0, 0);
+        let v = products.mean(0);
+        let normal = 2.0 * v * v / (x.len() + 1) as f64;
+        Some(Self {
+            var_v,
+            cov: products.covariance(0, 1),
+            var_t: products.covariance(1, 1),
+            normal,
+            excess: (var_v - normal) * (var_v - normal),
+        })
+    }
+
+    pub(crate) fn add(&mut self, other: Self) {
+        self.var_v += other.var_v;
+        self.cov += other.cov;
+        self.var_t += other.var_t;
+        self.normal += other.normal;
+        self.excess += other.excess;
+    }
+
+    /// Var(V): the free estimate, never below the normal one. By itself it is as noisy as its largest pixels, and small where
+    /// V is.
+    pub(crate) fn spread(&self) -> f64 {
+        self.var_v.max(self.normal)
+    }
+
+    /// How many degrees of freedom [`Self::spread`] has [Satterthwaite1946]. The normal part follows V; what is above or below
+    /// it in each pixel is counted as one number of which nothing else is known.
+    pub(crate) fn degrees(&self) -> u32 {
+        let degrees = 2.0 * self.spread() * self.spread() / self.excess;
+        // `as` takes what is not a number for none
+        (degrees.min(1e6) as u32).max(1)
+    }
+}
+
+/// Sums of products of two symmetric functions of pairs.
+struct Products {
+    n: f64,
+    /// Over all pairs.
+    sum: [f64; 2],
+    /// Over the pairs with one replicate.
+    with: Vec<[f64; 2]>,
+    /// Of products at the same pair: 00, 01, 11.
+    same: [f64; 3],
+}
+
+impl Products {
+    fn new(n: usize) -> Self {
+        Self {
+            n: n as f64,
+            sum: [0.0; 2],
+            with: vec![[0.0; 2]; n],
+            same: [0.0; 3],
+        }
+    }
+
+    fn add(&mut self, pair: [usize; 2], value: [f64; 2]) {
+        for c in 0..2 {
+            self.sum[c] += value[c];
+            for i in pair {
+                self.with[i][c] += value[c];
+            }
+        }
+        let [d, g] = value;
+        for (s, p) in self.same.iter_mut().zip([d * d, d * g, g * g]) {
+            *s += p;
+        }
+    }
+
+    /// U(A).
+    fn mean(&self, a: usize) -> f64 {
+        self.sum[a] / (self.n * (self.n - 1.0) / 2.0)
+    }
+
+    /// U(A) U(B) less the mean of A_ij B_kl over disjoint pairs.
+    fn covariance(&self, a: usize, b: usize) -> f64 {
+        let shared: f64 = self.with.iter().map(|t| t[a] * t[b]).sum();
+        let pairs = self.n * (self.n - 1.0) / 2.0;
+        let apart = pairs * (self.n - 2.0) * (self.n - 3.0) / 2.0;
+        let product = self.sum[a] * self.sum[b];
+        product / (pairs * pairs) - (product - shared + self.same[a + b]) / apart
+    }
+}
+
+/// Factors about an estimate of V / T that hold its expectation, for V and T that vary as chi-squares over their degrees of
+/// freedom, given as `[2 / nu_V, 2 / nu_T]`, and `t` standard deviations to either side.
+///
+/// Cube roots of such ratios are normal with mean 1 - a and variance a, a = 2 / (9 nu) [WilsonHilferty1931], and the interval
+/// of their quotient is that of Fieller, as for the F distribution [Paulson1942]. No upper end where T may be 0.
+pub(crate) fn ratio_interval([v, t]: [f64; 2], quantile: f64) -> [f64; 2] {
+    let (a, b, q2) = (v / 9.0, t / 9.0, quantile * quantile);
+    // F^(1/3) = y where (1 - b) y - (1 - a) is q sqrt(b y^2 + a) to either side
+    let (top, middle, end) = (
+        (1.0 - b) * (1.0 - b) - q2 * b,
+        (1.0 - a) * (1.0 - b),
+        (1.0 - a) * (1.0 - a) - q2 * a,
+    );
+    let root = (middle * middle - top * end).max(0.0).sqrt();
+    let low = if top > 0.0 {
+        (top / (middle + root)).powi(3)
+    } else {
+        0.0
+    };
+    let high = if end > 0.0 {
+        ((middle + root) / end).powi(3)
+    } else {
+        f64::INFINITY
+    };
+    [low, high]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Pairs, ratio_interval};
+
+    const R: usize = 8;
+
+    /// Mean of what pairs say about `runs` pixels, its standard error, and the variance of V and T over the pixels.
+    fn simulate(runs: u32, mut draw: impl FnMut() -> [f64; 2]) -> [[f64; 3]; 3] {
+        let r = R as f64;
+        let (mut said, mut squares) = ([0.0; 3], [0.0; 3]);
+        let (mut sums, mut products) = ([0.0; 2], [0.0; 3]);
+        for _ in 0..runs {
+            let x: [[f64; 2]; R] = std::array::from_fn(|_| draw());
+            let pairs = Pairs::of(&x, |_| 1).unwrap();
+            for (k, value) in [pairs.var_v, pairs.cov, pairs.var_t]
+                .into_iter()
+                .enumerate()
+            {
+                said[k] += value;
+                squares[k] += value * value;
+            }
+            let (mut v, mut t) = (0.0, 0.0);
+            for c in 0..2 {
+                let (s, q) = x
+                    .iter()
+                    .fold((0.0, 0.0), |(s, q), x| (s + x[c], q + x[c] * x[c]));
+                v += (q - s * s / r) / (r - 1.0) / r;
+                t += (s * s - q) / (r * (r - 1.0));
+            }
+            sums = [sums[0] + v, sums[1] + t];
+            products = [
+                products[0] + v * v,
+                products[1] + v * t,
+                products[2] + t * t,
+            ];
+        }
+        let n = f64::from(runs);
+        let [v, t] = sums.map(|s| s / n);
+        let actual = [
+            products[0] / n - v * v,
+            products[1] / n - v * t,
+            products[2] / n - t * t,
+        ];
+        std::array::from_fn(|k| {
+            let mean = said[k] / n;
+            [mean, ((squares[k] / n - mean * mean) / n).sqrt(), actual[k]]
+        })
+    }
+
+    #[test]
+    fn pairs_know_what_error_and_truth_vary_by() {
+        // exponential values, two channels of which the second is half the first: V = U / R with
+        // U = (1 + 1/4) s^2 and Var(s^2) = (m4 - m2^2 (R - 3) / (R - 1)) / R, m2 = 1, m4 = 9 [Hoeffding1948]
+        let mut rng = sampling::Rng::new(5);
+        let found = simulate(200_000, || {
+            let x = -(1.0 - rng.uniform()).ln();
+            [x, 0.5 * x]
+        });
+        let r = R as f64;
+        let exact = 1.25 * 1.25 * (9.0 - (r - 3.0) / (r - 1.0)) / r / (r * r);
+        let [mean, error, _] = found[0];
+        // 4 standard errors of a skewed mean, and an error bar that can tell 1 from 1.1
+        assert!(
+            (mean - exact).abs() < 4.0 * error,
+            "{mean} +- {error}, exact {exact}"
+        );
+        assert!(error < 0.02 * exact, "{error} of {exact}");
+        for [mean, error, actual] in found {
+            // the actual one is known as well as the mean of what is said, or somewhat worse
+            assert!(
+                (mean - actual).abs() < 6.0 * error,
+                "{mean} +- {error}, {actual}"
+            );
+            assert!(error < 0.02 * actual.abs(), "{error} of {actual}");
+        }
+    }
+
+    #[test]
+    fn three_replicates_say_nothing() {
+        assert!(Pairs::of(&[[1.0], [2.0], [4.0]], |_| 1).is_none());
+    }
+
+    #[test]
+    fn factors_of_printed_quantiles() {
+        let [low, high] = ratio_interval([2.0 / 10.0, 0.0], 1.959_964);
+        // chi-square with 10 degrees: 3.247 and 20.483 [Abramowitz1964, table 26.8]; the approximation errs by 1 %
+        assert!((10.0 / high - 3.247).abs() < 0.03, "lower {high}");
+        assert!((10.0 / low - 20.483).abs() < 0.02, "upper {low}");
+        // F with 10 and 20 degrees: 2.774 at 97.5 %, and 1 / 3.419 at 2.5 % [Abramowitz1964, table 26.9]
+        let [low, high] = ratio_interval([2.0 / 10.0, 2.0 / 20.0], 1.959_964);
+        assert!((1.0 / low - 2.774).abs() < 0.03, "upper {low}");
+        assert!((high - 3.419).abs() < 0.05, "lower {high}");
+        let [low, high] = ratio_interval([0.2, 5.0], 1.96);
+        assert!(low.abs() < 1e-12 && high > 10.0, "T may be 0: {low} {high}");
+        assert!(
+            ratio_interval([2.0, 0.0], 1.96)[1].is_infinite(),
+            "one degree"
+        );
+    }
+}
