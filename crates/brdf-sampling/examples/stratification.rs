@@ -68,9 +68,13 @@ fn main() -> Result<(), Box<dyn Error>> {
             grid.eval_native(wi, wo, &mut values);
             values.iter().zip(&weights).map(|(v, w)| v * w).sum::<f64>()
         };
-        let fine = Hvt::new(Target::new(&f), Preset::Fine.options());
-        let samplers: [(&str, &dyn DirectionSampler); 2] =
-            [("hvt-fine", &fine), ("cosine", &Cosine)];
+        let [default, fine] = [Preset::Default, Preset::Fine]
+            .map(|preset| Hvt::new(Target::new(&f), preset.options()));
+        let samplers: [(&str, &dyn DirectionSampler); 3] = [
+            ("hvt-default", &default),
+            ("hvt-fine", &fine),
+            ("cosine", &Cosine),
+        ];
         for (name, sampler) in samplers {
             for deg in VIEWERS_DEG {
                 let wo = direction(deg.to_radians(), 0.0);

@@ -21,17 +21,16 @@ impl<F: Fn(DVec3, DVec3, &mut [f64]) + Sync> Channels for F {}
 const SHIFTS: [f64; 4] = [0.125, 0.625, 0.375, 0.875];
 
 /// Calls `visit(g, area)` for the points of a midpoint rule over the hemisphere of wi: g_c = f_c cos theta_i, 0 where
-/// that is negative or not finite, and the solid angle of the point. `refine` multiplies the points each way.
-pub(crate) fn for_each_point(
+/// that is negative or not finite, and the solid angle of the point.
+fn for_each_point(
     f: &impl Channels,
     channels: usize,
     frame: ViewFrame,
     wo: DVec3,
-    refine: usize,
     mut visit: impl FnMut(&[f64], f64),
 ) {
     let chart = Chart::new(frame.sin_o, frame.cos_o, R0);
-    let [n, m] = POINTS.map(|n| n * refine);
+    let [n, m] = POINTS;
     let mut g = vec![0.0; channels];
     for k in 0..n * m {
         // 1 - x^2 takes the square-root end at the rim away
@@ -67,7 +66,7 @@ impl AlbedoTable {
         for (k, sums) in albedo.chunks_exact_mut(channels.max(1)).enumerate() {
             let (theta, phi) = grid.angles(k);
             let (frame, wo) = (ViewFrame::from_angles(theta, phi), grid.viewer(k));
-            for_each_point(f, channels, frame, wo, 1, |g, area| {
+            for_each_point(f, channels, frame, wo, |g, area| {
                 for (s, v) in sums.iter_mut().zip(g) {
                     *s += v * area;
                 }

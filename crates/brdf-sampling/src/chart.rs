@@ -56,7 +56,7 @@ impl ChartPoint {
     }
 }
 
-/// Bound of 1/J: the Jacobian vanishes at the rim.
+/// Bound of 1/J: the Jacobian vanishes at the rim, where rounding may also turn its sign.
 const MAX_DENSITY: f64 = 1e300;
 
 /// 2 sqrt2: dphi/db is this times q_max / (g (2 - g)).
@@ -109,7 +109,7 @@ impl Chart {
         ChartPoint {
             wi,
             ab,
-            density: density.min(MAX_DENSITY),
+            density: density.abs().min(MAX_DENSITY),
         }
     }
 
@@ -144,7 +144,7 @@ impl Chart {
         // wo.h = |wi + wo| / 2
         let radial = TURN * len * (self.scale2 + r2) * self.span;
         let density = slope * (g * (2.0 - g)) / (radial * q_max);
-        (ab, density.min(MAX_DENSITY))
+        (ab, density.abs().min(MAX_DENSITY))
     }
 
     /// Quarters to the azimuth where wi meets the horizon, for the squares of sine and cosine of theta_h or any multiple

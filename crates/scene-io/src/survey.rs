@@ -4,7 +4,6 @@
 //! and the verdict from chi-square tests of samples against the density they claim, at several viewers.
 
 mod cost;
-mod floor;
 mod verdict;
 
 pub use cost::PacketCost;
@@ -110,7 +109,12 @@ impl Visitor for Floor<'_> {
         let at = |k| direction(off_grid_deg(k).to_radians(), 0.0);
         let floors = (0..OFF_GRID).into_par_iter();
         floors
-            .map(|k| floor::colour_floor(self.0, &sampler, at(k)))
+            .map(|k| {
+                let f = |wi: DVec3, wo: DVec3, out: &mut [f64]| {
+                    out.copy_from_slice(&self.0.eval(wi, wo));
+                };
+                brdf_sampling::colour_floor(f, 3, &sampler, at(k))
+            })
             .sum::<f64>()
             / OFF_GRID as f64
     }

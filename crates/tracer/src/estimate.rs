@@ -63,7 +63,7 @@ impl<const N: usize> Film<N> {
         };
         let rmse = (error / (mean.len() * N).max(1) as f64).sqrt();
         let interval = |of: f64, ratio: [f64; 2]| {
-            if replicates < 2 {
+            if replicates < 2 || of.is_infinite() {
                 return [0.0, f64::INFINITY];
             }
             // no error at all stays none

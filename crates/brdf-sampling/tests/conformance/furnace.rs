@@ -82,10 +82,9 @@ fn run(cases: &[Case], angles: &[f64], samples: usize, wanted: impl Fn(usize, us
                     w.mean
                 ));
             }
-            // anisotropic targets are averaged over azimuth, which has no such bound
+            // slices of azimuth are few for a lobe six times as long as wide, which has no such bound
             let bounded = entry.name == "Hvt default" && case.symmetry.isotropic;
-            // the default table on the lobe of 0.005 reaches 11.1, rarely; the next 4.9
-            if bounded && w.largest > 12.0 {
+            if bounded && w.largest > 10.0 {
                 failed.push(format!("{name} at {theta}: weight {} means", w.largest));
             }
         }
