@@ -52,20 +52,7 @@ pub(super) fn scene(scene: &SceneFile) -> Result<(), Error> {
             not_zero(DVec3::from(plain(*direction)))
                 .map_err(|e| e.in_field(&format!("lights[{k}].direction")))?;
         }
-        let (colour, spectrum) = match light {
-            LightSpec::Point {
-                intensity,
-                spectrum,
-                ..
-            } => (*intensity, spectrum.as_ref()),
-            LightSpec::Directional {
-                irradiance,
-                spectrum,
-                ..
-            } => (*irradiance, spectrum.as_ref()),
-            LightSpec::Constant { radiance, spectrum } => (*radiance, spectrum.as_ref()),
-            LightSpec::Image { .. } => (Colour([1.0; 3]), None),
-        };
+        let (colour, spectrum) = light.shine();
         light_spectrum(colour, spectrum)
             .map_err(|e| e.in_field(&format!("lights[{k}].spectrum")))?;
         let environment = matches!(light, LightSpec::Constant { .. } | LightSpec::Image { .. });

@@ -310,3 +310,26 @@ pub enum LightSpec {
         home: PathBuf,
     },
 }
+
+impl LightSpec {
+    /// Its colour, or how bright its spectrum shines; an image is taken for white.
+    pub(crate) fn shine(&self) -> (Colour, Option<&LightSpectrum>) {
+        match self {
+            Self::Point {
+                intensity: colour,
+                spectrum,
+                ..
+            }
+            | Self::Directional {
+                irradiance: colour,
+                spectrum,
+                ..
+            }
+            | Self::Constant {
+                radiance: colour,
+                spectrum,
+            } => (*colour, spectrum.as_ref()),
+            Self::Image { .. } => (Colour([1.0; 3]), None),
+        }
+    }
+}

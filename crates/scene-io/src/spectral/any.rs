@@ -1,14 +1,14 @@
 //! A scene and its film in whichever mode was asked for.
 
 use super::channels::Channels;
-use super::hero;
+use super::hero::HeroChannels;
 use super::light::{self, LightSum};
 use super::palette::{FixedPalette, HeroPalette, RgbPalette};
 use crate::build::{Parts, Places, native_bands, parts};
 use crate::checkpoint::{self, About};
 use crate::error::Error;
 use crate::image::SpectralPicture;
-use crate::scene::{Colour, LightSpec, SceneFile, SpectrumName};
+use crate::scene::{SceneFile, SpectrumName};
 use brdf::HERO;
 use spectrum::{Basis, Bins};
 use std::borrow::Cow;
@@ -232,7 +232,8 @@ pub(crate) fn build(
     if name == SpectrumName::Rgb {
         return Ok(parts(file, places, &RgbPalette, notes)?.map(|s| AnyScene::Rgb(Box::new(s))));
     }
-    let reference = lights(file)?.reference();
+    let lights = lights(file)?;
+    let reference = lights.reference();
     let channels = |basis: Basis| Arc::new(Channels::new(basis, &reference));
     let bins = |count: usize| {
         let bins = Bins::uniform(count, file.render.range_nm).map(Basis::Bins);
@@ -240,7 +241,7 @@ pub(crate) fn build(
     };
     Ok(match name {
         SpectrumName::Rgb | SpectrumName::Hero => {
-            let palette = HeroPalette::new(channels(hero::basis()));
+            let palette = HeroPalette::new(HeroChannels::new(&lights));
             parts(file, places, &palette, notes)?.map(|s| AnyScene::Hero(Box::new(s)))
         }
         SpectrumName::Xyz => fixed(file, places, channels(Basis::Xyz), notes)?.map(AnyScene::Xyz),
@@ -284,20 +285,7 @@ pub(crate) fn lights(file: &SceneFile) -> Result<LightSum, Error> {
         }
     }
     for (k, spec) in file.lights.iter().enumerate() {
-        let (colour, spectrum) = match spec {
-            LightSpec::Point {
-                intensity,
-                spectrum,
-                ..
-            } => (*intensity, spectrum.as_ref()),
-            LightSpec::Directional {
-                irradiance,
-                spectrum,
-                ..
-            } => (*irradiance, spectrum.as_ref()),
-            LightSpec::Constant { radiance, spectrum } => (*radiance, spectrum.as_ref()),
-            LightSpec::Image { .. } => (Colour([1.0; 3]), None),
-        };
+        let (colour, spectrum) = spec.shine();
         let power = light::power(colour, spectrum);
         sum.add(power.map_err(|e| e.in_field(&format!("lights[{k}].spectrum")))?);
     }

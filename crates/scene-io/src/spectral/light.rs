@@ -2,12 +2,12 @@
 
 use crate::error::Error;
 use crate::scene::{Colour, LightSpectrum, Radiometric, Wavelength};
-use spectrum::{Illuminant, LinearUplift, Observer, Outside, Spectrum, Viewing};
+use spectrum::{Illuminant, LinearUplift, Observer, Outside, SigmoidFitter, Spectrum, Viewing};
 
 /// The power of a light: its luminance is the integral of power times y.
 ///
-/// A colour alone is that of daylight: D65 times the uplifted colour, so that it looks the same as in RGB. With a
-/// spectrum it is how bright that spectrum shines.
+/// A colour alone is that of daylight: D65 times the uplifted colour, so that it looks the same as in RGB; by the linear
+/// basis, since lights add up. With a spectrum it is how bright that spectrum shines.
 ///
 /// # Errors
 /// If the spectrum is dark or not one.
@@ -27,12 +27,13 @@ pub(crate) fn lit_by_daylight(reflectance: &Spectrum) -> Spectrum {
     daylight().map(|nm, power| power * reflectance.at(nm))
 }
 
-/// A colour of a scene as reflectance.
+/// A colour of a scene in [0, 1] as reflectance: the smooth one, in [0, 1] at every wavelength [JakobHanika2019].
+/// Nothing linear acts on it before it is reflected; where something does, as in mixtures, the colour itself is taken.
 pub(crate) fn colour([r, g, b]: [f64; 3]) -> Spectrum {
     if r.to_bits() == g.to_bits() && g.to_bits() == b.to_bits() {
         Spectrum::constant(r)
     } else {
-        LinearUplift::spectrum([r, g, b])
+        SigmoidFitter::new().fit([r, g, b]).sigmoid.spectrum()
     }
 }
 
@@ -103,21 +104,31 @@ impl LightSum {
 
     /// The sum, scaled to luminance 1; daylight if nothing shines.
     pub(crate) fn reference(&self) -> Spectrum {
-        let shining: Vec<&Spectrum> = (self.powers.iter())
-            .filter(|p| luminance(p) > 0.0)
-            .collect();
-        let sum = match shining[..] {
-            [] => daylight(),
-            [one] => one.clone(),
-            _ => sum(&shining),
-        };
-        let level = luminance(&sum).recip();
-        sum.scaled(level)
+        unit(sum(self.powers.iter().filter(|p| luminance(p) > 0.0)))
+    }
+
+    /// The sum of all as if equally bright: a lamp that lights a corner counts like the sun.
+    pub(crate) fn shape(&self) -> Spectrum {
+        let shining = self.powers.iter().filter(|p| luminance(p) > 0.0);
+        let even: Vec<Spectrum> = shining.map(|p| unit(p.clone())).collect();
+        unit(sum(even.iter()))
     }
 }
 
-/// The sum on the knots of all of them.
-fn sum(powers: &[&Spectrum]) -> Spectrum {
+/// Scaled to luminance 1.
+fn unit(power: Spectrum) -> Spectrum {
+    let level = luminance(&power).recip();
+    power.scaled(level)
+}
+
+/// The sum on the knots of all of them; daylight if there are none.
+fn sum<'a>(powers: impl Iterator<Item = &'a Spectrum>) -> Spectrum {
+    let powers: Vec<&Spectrum> = powers.collect();
+    match powers[..] {
+        [] => return daylight(),
+        [one] => return one.clone(),
+        _ => {}
+    }
     let mut knots: Vec<f64> = powers.iter().flat_map(|p| p.lambda_nm()).copied().collect();
     knots.sort_unstable_by(f64::total_cmp);
     knots.dedup();

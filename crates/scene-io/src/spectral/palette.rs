@@ -1,7 +1,7 @@
 //! How the parts of a scene file become what the renderer of a mode holds.
 
 use super::channels::Channels;
-use super::hero;
+use super::hero::{self, HeroChannels};
 use super::light;
 use super::surface::SpectralSurface;
 use crate::build::Places;
@@ -48,11 +48,13 @@ impl FromScene for SpectralSurface {
                 spectrum,
             } => {
                 let rgb = Surface::of_spec(spec, places)?.0;
-                let flat = match spectrum {
-                    None => light::colour(reflectance.0),
-                    Some(rows) => light::reflectance(rows)?.scaled(reflectance.0[0]),
+                let surface = match spectrum {
+                    None => Self::colour(rgb, reflectance.0),
+                    Some(rows) => {
+                        Self::flat(rgb, light::reflectance(rows)?.scaled(reflectance.0[0]))
+                    }
                 };
-                Ok((Self::flat(rgb, flat), None))
+                Ok((surface, None))
             }
             _ => {
                 let (rgb, path) = Surface::of_spec(spec, places)?;
@@ -180,15 +182,15 @@ impl<const N: usize> Palette<N> for FixedPalette<N> {
 
 /// Wavelengths that differ from path to path.
 pub(super) struct HeroPalette {
-    channels: Arc<Channels>,
+    hero: HeroChannels,
     pixel: Arc<[RotatedTable; 3]>,
 }
 
 impl HeroPalette {
-    pub(super) fn new(channels: Arc<Channels>) -> Self {
-        let pixel = unit_lights().map(|power| hero::rotated(&channels.emission(&power)));
+    pub(super) fn new(hero: HeroChannels) -> Self {
+        let pixel = unit_lights().map(|power| hero::rotated(&hero.channels.emission(&power)));
         let pixel = Arc::new(pixel);
-        Self { channels, pixel }
+        Self { hero, pixel }
     }
 }
 
@@ -197,7 +199,7 @@ impl Palette<HERO> for HeroPalette {
     type Surface = SpectralSurface;
 
     fn mode(&self) -> Hero {
-        hero::mode(&self.channels)
+        self.hero.mode()
     }
 
     fn light(
@@ -205,8 +207,7 @@ impl Palette<HERO> for HeroPalette {
         colour: Colour,
         spectrum: Option<&LightSpectrum>,
     ) -> Result<HeroEmission, Error> {
-        let power = light::power(colour, spectrum)?;
-        Ok(hero::emission(&self.channels, &power))
+        Ok(self.hero.emission(&light::power(colour, spectrum)?))
     }
 
     fn pixel(&self, rgb: [f32; 3]) -> HeroEmission {
@@ -222,7 +223,7 @@ impl Palette<HERO> for HeroPalette {
         name: SamplerName,
         cache: &Cache,
     ) -> Result<(Box<dyn Material<HERO, Rotation>>, SamplerReport), Error> {
-        surface.hero(&self.channels, name, cache)
+        surface.hero(&self.hero, name, cache)
     }
 }
 
