@@ -7,8 +7,9 @@ use crate::verbs::render::Render;
 use crate::verbs::samplers::Samplers;
 use crate::verbs::stress::Stress;
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use scene_io::scene::InterpolationName;
+use scene_io::scene::{ColourChoice, FileScale, InterpolationName, Primaries, White};
 use std::path::PathBuf;
+use std::str::FromStr;
 
 /// Check, see, convert and render measured reflectance.
 #[derive(Debug, Parser)]
@@ -48,14 +49,60 @@ pub(crate) enum Verb {
     Converge(Converge),
 }
 
+/// What the numbers of a measured file mean, where the file is not to be believed.
+#[derive(Clone, Copy, Debug, Default, Args)]
+pub(crate) struct ColourArgs {
+    /// Primaries of an RGB file: sRGB, Rec.2020, ACEScg, Trinitron (with their white) or xr,yr,xg,yg,xb,yb.
+    #[arg(long, value_name = "NAME|XY")]
+    pub(crate) primaries: Option<Primaries>,
+    /// White of an RGB file: A, C, D50, D65, E, F2, F11, blackbody:KELVIN or x,y.
+    #[arg(long, value_name = "NAME|XY")]
+    pub(crate) white: Option<White>,
+    /// Factor from the file's numbers to f_r in 1/sr, one or r,g,b.
+    #[arg(long, value_name = "FACTOR", allow_negative_numbers = true)]
+    pub(crate) scale: Option<FileScale>,
+}
+
+impl ColourArgs {
+    pub(crate) fn choice(self) -> ColourChoice {
+        ColourChoice {
+            primaries: self.primaries,
+            white: self.white,
+            scale: self.scale,
+        }
+    }
+}
+
+/// A range of wavelengths, nm.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Range(pub(crate) [f64; 2]);
+
+impl FromStr for Range {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let ends = text.split_once("..");
+        let ends = ends.and_then(|(a, b)| Some([a.parse().ok()?, b.parse().ok()?]));
+        match ends {
+            Some([from, to]) if 100.0 <= from && from < to && to <= 10_000.0 => {
+                Ok(Self([from, to]))
+            }
+            _ => Err("expected FROM..TO in nm, ascending, such as 410..690".into()),
+        }
+    }
+}
+
 /// Say what a file is: format, grid, channels, colour, validity.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   gonio info garnet_red_RGB.astm
+  gonio info garnet_red_RGB.astm --primaries sRGB --scale 2.8
   gonio info brass.binary --json")]
 pub(crate) struct Info {
     /// A measured-reflectance file in any known format.
     pub(crate) file: PathBuf,
+    #[command(flatten)]
+    pub(crate) colour: ColourArgs,
 }
 
 /// Evaluate f_r at one pair of directions, or at many from a CSV file.
@@ -84,6 +131,8 @@ pub(crate) struct Eval {
     /// Interpolation of tables.
     #[arg(long, value_name = "NAME")]
     pub(crate) interpolation: Option<InterpolationName>,
+    #[command(flatten)]
+    pub(crate) colour: ColourArgs,
 }
 
 /// The pictures `gonio plot` draws.

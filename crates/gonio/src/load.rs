@@ -4,7 +4,7 @@ use crate::output::Usage;
 use crate::verbs::Context;
 use anyhow::Result;
 use scene_io::material::{LoadedMeasured, MaterialOptions, load_measured};
-use scene_io::scene::InterpolationName;
+use scene_io::scene::{ColourChoice, InterpolationName};
 use spectrum::Basis;
 use std::path::Path;
 
@@ -13,10 +13,12 @@ pub(crate) fn measured(
     context: &Context,
     file: &Path,
     interpolation: Option<InterpolationName>,
+    colour: ColourChoice,
 ) -> Result<LoadedMeasured> {
     let path = context.places.data.find(file, Path::new(""))?;
     let options = MaterialOptions {
         interpolation: interpolation.unwrap_or(InterpolationName::Auto),
+        colour,
         ..MaterialOptions::default()
     };
     Ok(load_measured(&path, &options)?)

@@ -4,6 +4,7 @@ mod args;
 mod curves;
 mod load;
 mod output;
+mod pictures;
 mod process;
 mod verbs;
 

@@ -51,11 +51,13 @@ impl<S> BuiltScene<S> {
     /// How `picture` is brought to the screen.
     #[must_use]
     pub fn tone_map(&self, picture: &Picture) -> ToneMap {
-        match self.exposure {
-            ExposureSpec::Auto => ToneMap::auto(picture),
-            ExposureSpec::Scale(scale) => ToneMap {
-                scale: scale.0 as f32,
-            },
+        let scale = match self.exposure {
+            ExposureSpec::Auto => ToneMap::auto(picture).scale,
+            ExposureSpec::Scale(scale) => scale.0 as f32,
+        };
+        ToneMap {
+            scale,
+            gamut: self.file.film.gamut.mapping(),
         }
     }
 }

@@ -2,8 +2,8 @@
 
 use crate::error::Error;
 use crate::scene::{
-    FileMaterial, InterpolationName, MaterialSpec, ModelMaterial, PointsName, SamplerName,
-    SceneFile, SpectrumName,
+    ColourChoice, FileMaterial, GamutName, InterpolationName, MaterialSpec, ModelMaterial,
+    PointsName, SamplerName, SceneFile, SpectrumName,
 };
 use std::path::PathBuf;
 
@@ -14,6 +14,8 @@ pub struct Overrides {
     pub material: Option<MaterialSpec>,
     /// Of the main material.
     pub interpolation: Option<InterpolationName>,
+    /// What the numbers of the main material's file mean; what is not said here is as the scene says.
+    pub colour: ColourChoice,
     /// Of every material.
     pub sampler: Option<SamplerName>,
     /// Samples a pixel, at least 1.
@@ -26,6 +28,10 @@ pub struct Overrides {
     pub seed: Option<u64>,
     /// Point set.
     pub points: Option<PointsName>,
+    /// How PNGs show colours out of gamut.
+    pub gamut: Option<GamutName>,
+    /// The range that fixed bins divide, nm.
+    pub range_nm: Option<[f64; 2]>,
     /// Width and height of the film in pixels, at least 1.
     pub size: Option<(u32, u32)>,
 }
@@ -52,6 +58,7 @@ impl MaterialSpec {
             gap: None,
             beyond: None,
             scale: None,
+            colour: ColourChoice::default(),
             sampler: None,
             home: PathBuf::new(),
         })
@@ -64,7 +71,8 @@ impl Overrides {
     /// # Errors
     /// If a main material is to be changed and the scene names none.
     pub fn apply(&self, mut scene: SceneFile) -> Result<SceneFile, Error> {
-        if self.material.is_some() || self.interpolation.is_some() {
+        let coloured = self.colour != ColourChoice::default();
+        if self.material.is_some() || self.interpolation.is_some() || coloured {
             self.replace_main(&mut scene)?;
         }
         if let Some(sampler) = self.sampler {
@@ -82,6 +90,11 @@ impl Overrides {
         render.spp = self.spp.unwrap_or(render.spp).max(1);
         render.depth = self.depth.unwrap_or(render.depth);
         render.spectrum = self.spectrum.unwrap_or(render.spectrum);
+        if let Some(range) = self.range_nm {
+            render.range_nm = range;
+            render.edges_nm = None;
+        }
+        scene.film.gamut = self.gamut.unwrap_or(scene.film.gamut);
         render.seed = self.seed.unwrap_or(render.seed);
         render.points = self.points.unwrap_or(render.points);
         if let Some((width, height)) = self.size {
@@ -101,6 +114,21 @@ impl Overrides {
         })?;
         if let Some(material) = &self.material {
             *slot = material.clone();
+        }
+        let colour = &self.colour;
+        match slot {
+            MaterialSpec::File(m) => {
+                m.colour.primaries = colour.primaries.or(m.colour.primaries);
+                m.colour.white = colour.white.or(m.colour.white);
+                m.colour.scale = colour.scale.or(m.colour.scale);
+            }
+            _ if *colour != ColourChoice::default() => {
+                let message = "expected a file as main material for primaries, white or scale of a file, found none";
+                return Err(Error::invalid(message)
+                    .in_field("main_material")
+                    .in_file(&scene.path));
+            }
+            _ => {}
         }
         match (slot, self.interpolation) {
             (MaterialSpec::File(m), Some(_)) => m.interpolation = self.interpolation,

@@ -271,6 +271,32 @@ impl SampleCloud {
     }
 
     /// The rows in other channels; `matrix` has one row a channel.
+    /// The same rows with other channels: `factors` times the values, taken for channels of `basis`.
+    ///
+    /// # Errors
+    /// If there are not as many factors and channels as the rows have.
+    pub fn with_basis(&self, basis: Basis, factors: &[f64]) -> Result<Self, CloudError> {
+        let channels = self.basis.len();
+        if basis.len() != channels || factors.len() != channels {
+            return Err(CloudError::Matrix {
+                expected: channels,
+                found: factors.len().min(basis.len()),
+            });
+        }
+        let scaled =
+            |row: &[f64]| -> Vec<f64> { row.iter().zip(factors).map(|(v, f)| v * f).collect() };
+        Ok(Self {
+            values: self
+                .values
+                .chunks_exact(channels)
+                .flat_map(scaled)
+                .collect(),
+            luminance: basis.luminance_weights(),
+            basis,
+            ..self.clone()
+        })
+    }
+
     pub(crate) fn to_basis<const N: usize>(&self, basis: Basis, matrix: &[[f64; N]]) -> Self {
         let map = |row: usize| {
             let mut out = [0.0; N];

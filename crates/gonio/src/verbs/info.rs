@@ -3,9 +3,8 @@
 use super::Context;
 use super::eval::Channels;
 use crate::args::Info;
-use crate::load;
 use anyhow::Result;
-use brdf_formats::{File, MERL_SCALE};
+use brdf_formats::File;
 use scene_io::material::{Detail, Identity, identify};
 use serde::Serialize;
 use spectrum::Basis;
@@ -20,11 +19,15 @@ struct Report {
     dims: Vec<usize>,
     #[serde(flatten)]
     channels: Channels,
+    /// Who says what the channels are: `file`, `convention` or `user`.
+    channels_from: &'static str,
     primaries: Option<[[f64; 2]; 3]>,
     primaries_name: Option<String>,
     white: Option<[f64; 2]>,
+    white_from: Option<&'static str>,
     /// Factor from file values to f_r, per channel.
     scale: Vec<f64>,
+    scale_from: &'static str,
     valid_fraction: f64,
     negatives: Vec<usize>,
     bytes: u64,
@@ -37,7 +40,7 @@ struct Report {
 
 pub(crate) fn run(context: &Context, args: &Info) -> Result<()> {
     let path = context.places.data.find(&args.file, Path::new(""))?;
-    let report = describe(&identify(&path)?)?;
+    let report = describe(&identify(&path, &args.colour.choice())?)?;
     context.report(&report, |out| print(&report, out))
 }
 
@@ -54,12 +57,13 @@ fn describe(file: &Identity) -> Result<Report> {
         title: file.format.title,
         dims: content.dims,
         channels: Channels::of(basis),
+        channels_from: file.colour.channels_from.name(),
         primaries: space.as_ref().map(|s| s.primaries),
         primaries_name: space.as_ref().map(|s| s.name.clone()),
         white: space.as_ref().map(|s| s.white),
-        scale: content
-            .scale
-            .unwrap_or_else(|| vec![load::brdf_scale(basis); basis.len()]),
+        white_from: space.map(|_| file.colour.white_from.name()),
+        scale: file.colour.scale.clone(),
+        scale_from: file.colour.scale_from.name(),
         valid_fraction: content.valid_fraction,
         negatives: content.negatives,
         bytes: file.bytes,
@@ -89,7 +93,6 @@ fn interpolations(file: &Identity) -> &'static [&'static str] {
 /// What only the file itself can tell.
 struct Content {
     dims: Vec<usize>,
-    scale: Option<Vec<f64>>,
     valid_fraction: f64,
     negatives: Vec<usize>,
     header: Vec<(String, String)>,
@@ -100,7 +103,6 @@ fn content(file: &Identity) -> Result<Content> {
         let negative = cells.all_negative + cells.partly_negative;
         return Ok(Content {
             dims: dims.to_vec(),
-            scale: Some(MERL_SCALE.to_vec()),
             valid_fraction: cells.measured as f64 / cells.cells.max(1) as f64,
             negatives: vec![negative],
             header: vec![(
@@ -152,7 +154,6 @@ fn content(file: &Identity) -> Result<Content> {
     };
     Ok(Content {
         dims,
-        scale: None,
         valid_fraction: 1.0,
         negatives,
         header,
@@ -168,29 +169,31 @@ fn print(r: &Report, out: &mut String) -> fmt::Result {
         Channels::WavelengthsNm(nm) => {
             writeln!(
                 out,
-                "  channels   {} bands, {} to {} nm",
+                "  channels   {} bands, {} to {} nm ({})",
                 nm.len(),
                 nm.first().unwrap_or(&0.0),
-                nm.last().unwrap_or(&0.0)
+                nm.last().unwrap_or(&0.0),
+                r.channels_from
             )?;
         }
     }
     if let (Some(name), Some(p), Some(w)) = (&r.primaries_name, &r.primaries, &r.white) {
         writeln!(
             out,
-            "  primaries  {name}: R {:?} G {:?} B {:?}, white {w:?}",
-            p[0], p[1], p[2]
+            "  primaries  {name}: R {:?} G {:?} B {:?} ({})",
+            p[0], p[1], p[2], r.channels_from
         )?;
+        let from = r.white_from.unwrap_or_default();
+        writeln!(out, "  white      {w:?} ({from})")?;
     }
-    writeln!(
-        out,
-        "  scale      {}",
-        r.scale
-            .iter()
-            .map(|s| format!("{s:.6}"))
-            .collect::<Vec<_>>()
-            .join(", ")
-    )?;
+    let scale: Vec<String> = if r.scale.len() > 3 {
+        // one factor for all bands
+        r.scale.iter().take(1).map(|s| format!("{s:.6}")).collect()
+    } else {
+        r.scale.iter().map(|s| format!("{s:.6}")).collect()
+    };
+    let (scale, from) = (scale.join(", "), r.scale_from);
+    writeln!(out, "  scale      {scale} from numbers to f_r ({from})")?;
     writeln!(
         out,
         "  valid      {:.2} % of the entries",

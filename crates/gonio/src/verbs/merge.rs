@@ -3,11 +3,13 @@
 use super::Context;
 use super::render::keeper::part;
 use crate::args::parse_exr;
+use crate::pictures::{Gamut, write_pictures};
 use anyhow::{Context as _, Result, bail};
 use clap::Args;
-use scene_io::checkpoint::{self, Found};
-use scene_io::image::{Metadata, Picture, ToneMap, write_exr, write_png};
+use scene_io::checkpoint::About;
+use scene_io::image::{Metadata, Picture, ToneMap};
 use scene_io::rows::CONFIDENCE;
+use scene_io::spectral::AnyFilm;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::{self, Write};
@@ -40,13 +42,15 @@ struct Report {
     rmse_ci: [f64; 2],
     rel_rmse: f64,
     rel_rmse_ci: [f64; 2],
+    gamut: Gamut,
 }
 
 pub(crate) fn run(context: &Context, args: &Merge) -> Result<()> {
     scene_io::write::check(&args.output)?;
     let (whole, shards) = gather(&args.shards)?;
     let about = &whole.about;
-    let mut picture = Picture::of_film(&whole.film)?;
+    let film = whole.film.rgb();
+    let mut picture = Picture::of_film(&film)?;
     picture.metadata = Metadata {
         scene: Some(about.scene.clone()),
         seed: Some(about.seed),
@@ -55,14 +59,13 @@ pub(crate) fn run(context: &Context, args: &Merge) -> Result<()> {
         version: Some(env!("CARGO_PKG_VERSION").into()),
         sampler: Some(about.sampler.clone()),
     };
-    let png = args.output.with_extension("png");
-    write_exr(&args.output, &picture)?;
-    let tone = match about.exposure {
-        Some(scale) => ToneMap { scale },
-        None => ToneMap::auto(&picture),
+    let auto = || ToneMap::auto(&picture).scale;
+    let tone = ToneMap {
+        scale: about.exposure.unwrap_or_else(auto),
+        gamut: about.gamut,
     };
-    write_png(&png, &picture, tone).context("the EXR was written")?;
-    let estimate = whole.film.estimate(CONFIDENCE);
+    let (png, gamut) = write_pictures(&args.output, &whole.film, &picture, tone)?;
+    let estimate = film.estimate(CONFIDENCE);
     let report = Report {
         written: [args.output.clone(), png],
         scene: about.scene.clone(),
@@ -73,6 +76,7 @@ pub(crate) fn run(context: &Context, args: &Merge) -> Result<()> {
         rmse_ci: estimate.rmse_ci,
         rel_rmse: estimate.rel_rmse,
         rel_rmse_ci: estimate.rel_rmse_ci,
+        gamut: Gamut::new(tone, gamut),
     };
     context.report(&report, |out| report.print(out))
 }
@@ -88,18 +92,27 @@ impl Report {
             100.0 * self.rel_rmse_ci[0],
             100.0 * self.rel_rmse_ci[1]
         )?;
+        self.gamut.print(out)?;
         self.written
             .iter()
             .try_for_each(|path| writeln!(out, "wrote {}", path.display()))
     }
 }
 
+/// A checkpoint of any mode.
+struct Found {
+    film: AnyFilm,
+    about: About,
+    key: u64,
+}
+
 /// The whole picture, and of how many shards.
-fn gather(paths: &[PathBuf]) -> Result<(Found<3>, u32)> {
-    let mut whole: Option<(&Path, Found<3>, Shard)> = None;
+fn gather(paths: &[PathBuf]) -> Result<(Found, u32)> {
+    let mut whole: Option<(&Path, Found, Shard)> = None;
     let mut seen = BTreeMap::new();
     for path in paths {
-        let found = checkpoint::open::<3>(path)?;
+        let (film, about, key) = AnyFilm::open(path)?;
+        let found = Found { film, about, key };
         let name = path.display();
         let Some(shard) = found.about.shard else {
             bail!("{name}: expected a shard, found the checkpoint of a whole picture");
@@ -119,18 +132,15 @@ fn gather(paths: &[PathBuf]) -> Result<(Found<3>, u32)> {
                 if found.key != whole.key
                     || shard.count != of.count
                     || found.about.spp != whole.about.spp
-                    || same(&found.film) != same(&whole.film)
+                    || found.about.channels != whole.about.channels
+                    || same(&found.film.rgb()) != same(&whole.film.rgb())
                 {
                     bail!(
                         "{name}: expected a shard of the render of {}, found one of another",
                         first.display()
                     );
                 }
-                for (index, tile) in found.film.tiles().iter().enumerate() {
-                    if shard.has(index) {
-                        whole.film.restore(index, tile.done(), tile.sums())?;
-                    }
-                }
+                whole.film.take(&found.film, shard)?;
             }
         }
     }
@@ -151,8 +161,8 @@ fn gather(paths: &[PathBuf]) -> Result<(Found<3>, u32)> {
     Ok((whole, shard.count))
 }
 
-fn finished(found: &Found<3>, shard: Shard) -> Result<()> {
-    let done = super::render::keeper::least(&found.film, Some(shard));
+fn finished(found: &Found, shard: Shard) -> Result<()> {
+    let done = super::render::keeper::least(&found.film.rgb(), Some(shard));
     if done < found.about.spp {
         bail!(
             "expected {} samples a pixel, found {done}: render it again with the same checkpoint to go on",

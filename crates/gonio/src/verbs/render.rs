@@ -10,10 +10,11 @@ mod trace;
 
 use super::Context;
 use crate::output::say;
+use crate::pictures::{Gamut, write_pictures};
 use anyhow::{Context as _, Result};
 pub(crate) use args::Render;
 use report::Report;
-use scene_io::image::{Metadata, Picture, write_exr, write_png, write_spectral_exr};
+use scene_io::image::{Metadata, Picture};
 use scene_io::rows::{Recorder, Row};
 use scene_io::scene::MaterialSpec;
 use scene_io::spectral::{AnyFilm, AnyScene};
@@ -66,6 +67,9 @@ fn overrides(args: &Render) -> Overrides {
             .as_ref()
             .map(|m| MaterialSpec::from_argument(&m.to_string_lossy())),
         interpolation: args.interpolation,
+        colour: args.colour.choice(),
+        gamut: args.gamut,
+        range_nm: args.range.map(|r| r.0),
         sampler: args.sampler,
         spectrum: args.spectrum,
         spp: args.spp,
@@ -92,7 +96,7 @@ fn write(
     args: &Render,
     build_seconds: f64,
 ) -> Result<Report> {
-    let report = Report::new(built, traced, args, build_seconds);
+    let mut report = Report::new(built, traced, args, build_seconds);
     if built.settings.shard.is_some() {
         return Ok(report);
     }
@@ -105,12 +109,9 @@ fn write(
         version: Some(env!("CARGO_PKG_VERSION").into()),
         sampler: Some(report.sampler.clone()),
     };
-    match traced.film.spectral() {
-        Some(spectral) => write_spectral_exr(&args.output, &picture, &spectral)?,
-        None => write_exr(&args.output, &picture)?,
-    }
-    let png = args.output.with_extension("png");
-    write_png(&png, &picture, built.tone_map(&picture)).context("the EXR was written")?;
+    let tone = built.tone_map(&picture);
+    let gamut = write_pictures(&args.output, &traced.film, &picture, tone)?.1;
+    report.gamut = Some(Gamut::new(tone, gamut));
     if let Some(map) = &args.error_map {
         error_map::write(map, &traced.film.rgb()).context("the picture was written")?;
     }

@@ -1,8 +1,9 @@
 //! `gonio spectra SCENE`: one scene in every mode, its colours against the finest answer.
 
 use super::Context;
-use crate::args::parse_size;
+use crate::args::{ColourArgs, Range, parse_size};
 use crate::output::{Usage, say};
+use crate::pictures::Gamut;
 use anyhow::Result;
 use clap::Args;
 use scene_io::image::write_png;
@@ -34,6 +35,11 @@ pub(crate) struct Spectra {
     /// What they are compared with: by default native where a material has bands, else hero.
     #[arg(long, value_name = "NAME")]
     pub(crate) reference: Option<SpectrumName>,
+    #[command(flatten)]
+    pub(crate) colour: ColourArgs,
+    /// The range that 8, 16 and 45 bins divide, nm, such as 410..690.
+    #[arg(long, value_name = "FROM..TO")]
+    pub(crate) range: Option<Range>,
     /// Samples a pixel.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(8..=1 << 24))]
     pub(crate) spp: Option<u32>,
@@ -70,6 +76,7 @@ struct Row {
     /// With the noise left in.
     delta_e_raw: f64,
     pixels: usize,
+    gamut: Gamut,
 }
 
 pub(crate) fn run(context: &Context, args: &Spectra) -> Result<()> {
@@ -81,6 +88,8 @@ pub(crate) fn run(context: &Context, args: &Spectra) -> Result<()> {
     let material = args.material.as_ref();
     let overrides = Overrides {
         material: material.map(|m| MaterialSpec::from_argument(&m.to_string_lossy())),
+        colour: args.colour.choice(),
+        range_nm: args.range.map(|r| r.0),
         spp: args.spp,
         seed: args.seed,
         size: args.size,
@@ -108,7 +117,7 @@ fn write(folder: &Path, scene: &Path, found: &Study) -> Result<Report> {
         scene_io::image::write_exr(&path, &mode.picture)?;
         written.push(path);
         let path = folder.join(format!("{}.png", mode.name));
-        write_png(&path, &mode.picture, found.tone)?;
+        let gamut = write_png(&path, &mode.picture, found.tone)?;
         written.push(path);
         let d = &mode.difference;
         modes.push(Row {
@@ -122,6 +131,7 @@ fn write(folder: &Path, scene: &Path, found: &Study) -> Result<Report> {
             delta_e_error: d.mean_error,
             delta_e_raw: d.raw_mean,
             pixels: d.pixels,
+            gamut: Gamut::new(found.tone, gamut),
         });
     }
     let sheet = folder.join("sheet.png");

@@ -92,6 +92,57 @@ fn shards_merge_to_the_same_bits() {
     }
 }
 
+/// Every mode keeps its channels: bins and bands come back from shards and from a film that was stopped.
+#[test]
+fn every_mode_is_resumed_and_merged_to_the_same_bits() {
+    let (bench, scene) = (Bench::new(), scene());
+    let planes = |name: &str| scene_io::image::read_spectral_exr(&bench.path(name)).ok();
+    for mode in ["rgb", "xyz", "8", "16", "45", "native", "hero"] {
+        let scene = format!("{scene} --spectrum {mode}");
+        bench.text(&format!("{scene} --spp 32 --threads 1 -o whole.exr"));
+        let film = format!("film-{mode}");
+        bench.text(&format!("{scene} --spp 8 --checkpoint {film} -o part.exr"));
+        bench.text(&format!(
+            "{scene} --spp 32 --checkpoint {film} -o resumed.exr"
+        ));
+        for k in 1..=2 {
+            bench.text(&format!(
+                "{scene} --spp 32 --shard {k}/2 --checkpoint {mode}-{k}"
+            ));
+        }
+        let said = bench.json(&format!("merge {mode}-2 {mode}-1 -o merged.exr"));
+        assert_eq!(said["shards"], 2, "{mode}: {said}");
+        for other in ["resumed", "merged"] {
+            let name = format!("{other}.exr");
+            assert!(
+                bits(&bench, "whole.exr") == bits(&bench, &name),
+                "{mode}: {other}"
+            );
+            assert!(planes("whole.exr") == planes(&name), "{mode}: {other}");
+            let [a, b] = ["whole.png", &format!("{other}.png")].map(|name| bench.read(name));
+            assert!(a == b, "{mode}: another PNG of {other}");
+        }
+        let spectral = !matches!(mode, "rgb" | "xyz" | "hero");
+        assert_eq!(planes("merged.exr").is_some(), spectral, "{mode}");
+    }
+    // shards of two modes are not of one render
+    let run = bench.run("merge 8-1 16-2 -o x.exr");
+    assert_eq!(run.code, 1, "{}", run.err);
+    assert!(
+        run.err.contains("expected a shard of the render of 8-1"),
+        "{}",
+        run.err
+    );
+    let run = bench.run(&format!(
+        "{scene} --spectrum 16 --spp 32 --checkpoint film-8 -o x.exr"
+    ));
+    assert!(
+        run.code == 1 && run.err.contains("belongs to other input"),
+        "{}",
+        run.err
+    );
+}
+
 #[test]
 fn checkpoints_that_do_not_fit_are_refused_in_one_line() {
     let (bench, scene) = (Bench::new(), scene());

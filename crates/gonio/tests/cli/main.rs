@@ -7,6 +7,8 @@ mod chain;
 #[cfg(test)]
 mod checkpoint;
 #[cfg(test)]
+mod colour;
+#[cfg(test)]
 mod converge;
 #[cfg(test)]
 mod data;

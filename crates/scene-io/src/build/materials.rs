@@ -120,7 +120,7 @@ pub(crate) fn native_bands(file: &SceneFile, places: &Places) -> Result<(Vec<f64
         if let (true, Some(MaterialSpec::File(m))) = (used, file.materials.get(name)) {
             let in_material = |e: Error| e.in_field(&format!("materials.{name}"));
             let path = places.data.find(&m.path, &m.home).map_err(in_material)?;
-            let identity = identify(&path).map_err(in_material)?;
+            let identity = identify(&path, &m.colour).map_err(in_material)?;
             if let Basis::Bands(nm) = identity.basis
                 && matches!(nm.len(), 31 | 65)
             {

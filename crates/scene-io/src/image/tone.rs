@@ -2,13 +2,15 @@
 
 use super::picture::Picture;
 use rayon::slice::ParallelSliceMut;
-use spectrum::{LUMINANCE_SRGB, srgb_encode};
+use spectrum::{GamutMapping, GamutReport, LUMINANCE_SRGB, srgb_encode};
 
-/// One factor, then clamping to [0, 1], then the sRGB curve [Iec61966]: nothing that bends colours.
+/// One factor, then what becomes of colours out of gamut, then clamping to [0, 1], then the sRGB curve [Iec61966].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ToneMap {
     /// What radiance is multiplied by.
     pub scale: f32,
+    /// How colours with negative components are shown.
+    pub gamut: GamutMapping,
 }
 
 /// The percentile that [`ToneMap::auto`] looks at ...
@@ -37,7 +39,21 @@ impl ToneMap {
         };
         Self {
             scale: scale.min(f64::from(f32::MAX)) as f32,
+            gamut: GamutMapping::default(),
         }
+    }
+
+    /// A pixel as 8-bit sRGB.
+    #[must_use]
+    pub fn show(&self, pixel: [f32; 3]) -> [u8; 3] {
+        let scaled = pixel.map(|v| f64::from(v * self.scale));
+        self.gamut.apply(scaled).map(|v| to_srgb8(v as f32))
+    }
+
+    /// What of a picture is out of gamut, and therefore shown in another colour than it has.
+    #[must_use]
+    pub fn report(&self, picture: &Picture) -> GamutReport {
+        GamutReport::of(picture.pixels.iter().map(|p| p.map(f64::from)))
     }
 }
 

@@ -1,5 +1,6 @@
 //! What a measured file is, found out without interpolating it.
 
+use super::colour::{ColourMeaning, Recolouring};
 use super::loaded::{Detail, LoadedMeasured};
 use brdf_formats::Format;
 use brdf_table::SampleCloud;
@@ -17,6 +18,8 @@ pub struct Identity {
     pub bytes: u64,
     /// What its channels mean.
     pub basis: Basis,
+    /// Who says so, and by which factor numbers become f_r.
+    pub colour: ColourMeaning,
     /// Whether swapping light and viewer changes nothing, by its layout.
     pub reciprocal: bool,
     /// Cells or rows; [`Detail::Rows`] for all scattered measurements.
@@ -31,16 +34,23 @@ impl Identity {
             path: loaded.path,
             format: loaded.format,
             bytes: loaded.bytes,
+            colour: loaded.colour,
             detail: loaded.detail,
         }
     }
 
-    pub(super) fn of_rows(format: &'static Format, bytes: u64, cloud: &SampleCloud) -> Self {
+    pub(super) fn of_rows(
+        format: &'static Format,
+        bytes: u64,
+        cloud: &SampleCloud,
+        recolouring: Recolouring,
+    ) -> Self {
         Self {
             path: PathBuf::new(),
             format,
             bytes,
-            basis: cloud.basis().clone(),
+            basis: recolouring.basis,
+            colour: recolouring.meaning,
             reciprocal: false,
             detail: Detail::Rows {
                 rows: cloud.len(),

@@ -1,5 +1,6 @@
 //! A measured file in memory.
 
+use super::colour::ColourMeaning;
 use brdf::Measured;
 use brdf_formats::Format;
 use brdf_table::scattered::FillReport;
@@ -19,6 +20,8 @@ pub struct LoadedMeasured {
     pub path: PathBuf,
     /// Size of the file.
     pub bytes: u64,
+    /// Who says what the channels mean, and by which factor numbers become f_r.
+    pub colour: ColourMeaning,
     /// What the policies found and did.
     pub detail: Detail,
     pub(super) form: Form,

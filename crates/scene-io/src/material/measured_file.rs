@@ -1,12 +1,14 @@
 //! Measured files: bytes to [`LoadedMeasured`].
 
+use super::colour::Recolouring;
 use super::identity::Identity;
 use super::loaded::{Detail, Form, LoadedMeasured};
 use super::options::MaterialOptions;
 use super::scattered;
+use crate::cache::combine;
 use crate::error::{Error, ErrorKind, os_message};
 use crate::load;
-use crate::scene::{InterpolationName, NegativeName};
+use crate::scene::{ColourChoice, InterpolationName, NegativeName};
 use crate::sealed::content_hash;
 use brdf::Measured;
 use brdf_formats::{File, Format, MerlStream, PREFIX, RglFile};
@@ -59,15 +61,22 @@ pub(crate) fn measured_from_bytes(
 /// What a file is and holds, without making an interpolant: scattered rows are counted, nothing is solved for them.
 ///
 /// # Errors
-/// Unreadable files, unknown formats, broken content.
-pub fn identify(path: &Path) -> Result<Identity, Error> {
-    let options = MaterialOptions::default();
+/// Unreadable files, unknown formats, broken content, a `colour` that does not go with the format.
+pub fn identify(path: &Path, colour: &ColourChoice) -> Result<Identity, Error> {
+    let options = MaterialOptions {
+        colour: *colour,
+        ..MaterialOptions::default()
+    };
     let identify = || match Content::open(path)? {
         Content::Merl { format, source, of } => {
             merl((format, of), source, &options).map(Identity::of)
         }
         Content::Parsed { file, of } => match scattered::cloud(&file) {
-            Some(cloud) => Ok(Identity::of_rows(file.format(), of.bytes, &cloud?)),
+            Some(cloud) => {
+                let (cloud, format) = (cloud?, file.format());
+                let recolouring = Recolouring::new(colour, format, cloud.basis())?;
+                Ok(Identity::of_rows(format, of.bytes, &cloud, recolouring))
+            }
             None => parsed(&file, of, &options).map(Identity::of),
         },
     };
@@ -190,6 +199,8 @@ fn merl(
         return Err(Error::invalid("expected measured cells, found none"));
     }
     let dims = table.dims();
+    let recolouring = Recolouring::new(&options.colour, format, table.basis())?;
+    let table = recolouring.table(table)?;
     let gridded = Gridded {
         table: Arc::new(table),
         interpolation,
@@ -199,6 +210,7 @@ fn merl(
         format,
         path: PathBuf::new(),
         bytes: of.bytes,
+        colour: recolouring.meaning,
         detail: Detail::Grid { dims, cells },
         form: Form::Grid(gridded),
     })
@@ -221,15 +233,24 @@ fn rgl(
         return Err(Error::invalid(message).in_field("negatives"));
     }
     let table = Arc::new(RglTable::new(file).map_err(broken)?);
+    let mut measured = Arc::clone(&table) as Arc<dyn Measured>;
+    let mut form = Form::Rgl(table, of.key);
+    let recolouring = Recolouring::new(&options.colour, format, measured.basis())?;
+    let colour = recolouring.meaning.clone();
+    if recolouring.changes() {
+        form = Form::Opaque(combine(&[of.key, recolouring.key()]));
+        measured = recolouring.measured(measured);
+    }
     Ok(LoadedMeasured {
-        measured: Arc::clone(&table) as Arc<dyn Measured>,
+        measured,
         format,
         path: PathBuf::new(),
         bytes: of.bytes,
+        colour,
         detail: Detail::Rgl {
             description: file.description(),
         },
-        form: Form::Rgl(table, of.key),
+        form,
     })
 }
 

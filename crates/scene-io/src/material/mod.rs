@@ -4,6 +4,7 @@
 //! linear sRGB, on a grid where that is faster; [`Surface::material`] chooses the concrete pair of reflectance and
 //! sampler, so that everything below the one virtual call of a packet stream is compiled for that pair.
 
+mod colour;
 mod identity;
 mod loaded;
 mod measured_file;
@@ -14,6 +15,7 @@ mod pair;
 mod scattered;
 mod surface;
 
+pub use colour::{ColourMeaning, Source};
 pub use identity::Identity;
 pub use loaded::{Detail, LoadedMeasured};
 pub(crate) use measured_file::measured_from_bytes;

@@ -1,8 +1,8 @@
 //! What may be chosen about a material.
 
 use crate::scene::{
-    BeyondName, FileMaterial, GapName, InterpolationName, ModelMaterial, NegativeName, SamplerName,
-    Weight,
+    BeyondName, ColourChoice, FileMaterial, GapName, InterpolationName, ModelMaterial,
+    NegativeName, SamplerName, Weight,
 };
 
 /// Choices; every one has a default that suits the file.
@@ -16,6 +16,8 @@ pub struct MaterialOptions {
     pub gap: Option<GapName>,
     /// What answers beyond the most grazing rows; `None`: what the interpolation does best.
     pub beyond: Option<BeyondName>,
+    /// What the numbers of the file mean, where it is not to be believed.
+    pub colour: ColourChoice,
     /// Factor per linear sRGB channel, applied last.
     pub scale: [f64; 3],
     /// How directions are chosen.
@@ -29,6 +31,7 @@ impl Default for MaterialOptions {
             negatives: NegativeName::Auto,
             gap: None,
             beyond: None,
+            colour: ColourChoice::default(),
             scale: [1.0; 3],
             sampler: SamplerName::Auto,
         }
@@ -44,6 +47,7 @@ impl MaterialOptions {
             negatives: file.negatives.unwrap_or(NegativeName::Auto),
             gap: file.gap,
             beyond: file.beyond,
+            colour: file.colour,
             scale: plain_scale(file.scale),
             sampler: file.sampler.unwrap_or(sampler),
         }

@@ -1,5 +1,6 @@
 //! Files of scattered rows: which interpolant answers, under which policies.
 
+use super::colour::{ColourMeaning, Recolouring};
 use super::loaded::{Detail, Form, LoadedMeasured};
 use super::measured_file::Origin;
 use super::options::MaterialOptions;
@@ -35,9 +36,20 @@ pub(super) fn load(
     cloud: &SampleCloud,
     options: &MaterialOptions,
 ) -> Result<LoadedMeasured, Error> {
+    let recolouring = Recolouring::new(&options.colour, format, cloud.basis())?;
+    let read = recolouring.changes().then(|| recolour(&recolouring, cloud));
+    let read = read.transpose()?;
+    let cloud = read.as_ref().unwrap_or(cloud);
+    let (meaning, of) = match read {
+        Some(_) => {
+            let key = combine(&[of.key, recolouring.key()]);
+            (recolouring.meaning, Origin { key, ..of })
+        }
+        None => (recolouring.meaning, of),
+    };
     let mode = match options.interpolation {
         InterpolationName::Auto | InterpolationName::ThinPlate => {
-            return thin_plate(format, of, cloud, options);
+            return thin_plate((format, of, meaning), cloud, options);
         }
         InterpolationName::KdNearest => None,
         InterpolationName::Nearest => Some(LayerMode::Nearest),
@@ -61,12 +73,19 @@ pub(super) fn load(
         format,
         path: PathBuf::new(),
         bytes: of.bytes,
+        colour: meaning,
         detail: Detail::Rows {
             rows: cloud.len(),
             negative_values: cloud.negatives().iter().sum(),
         },
         form: Form::Opaque(combine(&[of.key, content_hash(choices.as_bytes())])),
     })
+}
+
+/// The same rows, read as the user says.
+fn recolour(as_said: &Recolouring, cloud: &SampleCloud) -> Result<SampleCloud, Error> {
+    let rows = cloud.with_basis(as_said.basis.clone(), &as_said.factors);
+    rows.map_err(invalid)
 }
 
 /// The same rows without negative values.
@@ -119,8 +138,7 @@ fn policies(options: &MaterialOptions) -> Policies {
 }
 
 fn thin_plate(
-    format: &'static Format,
-    of: Origin,
+    (format, of, colour): (&'static Format, Origin, ColourMeaning),
     cloud: &SampleCloud,
     options: &MaterialOptions,
 ) -> Result<LoadedMeasured, Error> {
@@ -133,6 +151,7 @@ fn thin_plate(
         format,
         path: PathBuf::new(),
         bytes: of.bytes,
+        colour,
         detail: Detail::Scattered {
             rows: cloud.len(),
             fill: Box::new(plate.report()),

@@ -80,7 +80,7 @@ impl Surface {
                 return Ok(Self { form, notes });
             }
         };
-        let table = scaled(table, options.scale)?;
+        let table = scaled(linear(table)?, options.scale)?;
         Self::grid(table, interpolation, notes)
     }
 
@@ -415,6 +415,17 @@ fn scaled(table: Arc<HalfDiffTable>, scale: [f64; 3]) -> Result<Arc<HalfDiffTabl
         .map_channels(&matrix, srgb())
         .map(Arc::new)
         .map_err(|e| Error::invalid(e.to_string()).in_field("scale"))
+}
+
+/// The table in linear sRGB, if its channels are others.
+fn linear(table: Arc<HalfDiffTable>) -> Result<Arc<HalfDiffTable>, Error> {
+    if *table.basis() == srgb() {
+        return Ok(table);
+    }
+    let rows = table.basis().to_linear_srgb();
+    let matrix: Vec<Vec<f64>> = rows.iter().map(|r| r.to_vec()).collect();
+    let mapped = table.map_channels(&matrix, srgb()).map(Arc::new);
+    mapped.map_err(|e| Error::invalid(e.to_string()))
 }
 
 fn is_one(scale: [f64; 3]) -> bool {

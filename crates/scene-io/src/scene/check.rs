@@ -8,6 +8,7 @@ use super::schema::{
 };
 use crate::error::Error;
 use glam::DVec3;
+use spectrum::Bins;
 use std::collections::BTreeMap;
 
 /// Most pixels of an image: 2^26, 0.8 GB of f32 RGB.
@@ -28,6 +29,9 @@ pub(super) fn scene(scene: &SceneFile) -> Result<(), Error> {
     if from >= to {
         let message = format!("expected two ascending wavelengths, found {from} and {to}");
         return Err(Error::invalid(message).in_field("render.range_nm"));
+    }
+    if let Some(edges) = &scene.render.edges_nm {
+        edges_nm(edges).map_err(|e| e.in_field("render.edges_nm"))?;
     }
     if let Some(name) = &scene.main_material {
         known(name, &scene.materials).map_err(|e| e.in_field("main_material"))?;
@@ -63,6 +67,20 @@ pub(super) fn scene(scene: &SceneFile) -> Result<(), Error> {
         return Err(Error::invalid(message).in_field("lights"));
     }
     Ok(())
+}
+
+/// As many as one of the modes has, in order.
+fn edges_nm(edges: &[f64]) -> Result<(), Error> {
+    if !matches!(edges.len(), 9 | 17 | 46) {
+        return Err(Error::invalid(format!(
+            "expected 9, 17 or 46 edges for 8, 16 or 45 bins, found {}",
+            edges.len()
+        )));
+    }
+    match Bins::new(edges.to_vec()) {
+        Ok(_) => Ok(()),
+        Err(e) => Err(Error::invalid(e.to_string())),
+    }
 }
 
 fn camera(camera: &CameraSpec) -> Result<(), Error> {

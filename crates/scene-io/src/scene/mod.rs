@@ -2,6 +2,7 @@
 
 mod check;
 mod checked;
+mod colour;
 mod names;
 mod parse;
 mod resolve;
@@ -12,8 +13,10 @@ pub use checked::{
     Colour, Coordinate, Degrees, Depth, FieldOfView, Kelvin, MAX_COORDINATE, MAX_RADIANCE, Point,
     Positive, Radiometric, SampleCount, Segments, Side, Wavelength, Weight, plain,
 };
+pub use colour::{ColourChoice, FileScale, Primaries, White};
 pub use names::{
-    BeyondName, GapName, InterpolationName, NegativeName, PointsName, SamplerName, SpectrumName,
+    BeyondName, GamutName, GapName, InterpolationName, NegativeName, PointsName, SamplerName,
+    SpectrumName,
 };
 pub use resolve::{CameraSpec, FilmSpec, RenderSpec, SceneFile};
 pub use schema::{

@@ -1,6 +1,7 @@
 //! The names users write, in scenes and on the command line alike.
 
 use serde::Deserialize;
+use spectrum::GamutMapping;
 use std::fmt;
 use std::str::FromStr;
 
@@ -134,13 +135,34 @@ names!(
 );
 
 names!(
+    /// How PNGs show colours with negative components; EXR files keep them.
+    GamutName, "a gamut mapping" {
+        /// Negative components become 0.
+        Clip = "clip",
+        /// Mixed with grey of the same luminance until none is negative.
+        Desaturate = "desaturate",
+    }
+);
+
+impl GamutName {
+    /// What it stands for.
+    #[must_use]
+    pub fn mapping(self) -> GamutMapping {
+        match self {
+            Self::Clip => GamutMapping::Clip,
+            Self::Desaturate => GamutMapping::Desaturate,
+        }
+    }
+}
+
+names!(
     /// What the channels of a render are.
     SpectrumName, "a spectrum" {
         /// Linear sRGB.
         Rgb = "rgb",
         /// CIE XYZ relative to white.
         Xyz = "xyz",
-        /// Eight bins from 380 to 720 nm.
+        /// Eight bins.
         Eight = "8",
         /// Sixteen bins.
         Sixteen = "16",

@@ -1,7 +1,7 @@
 //! Laying a scene over its bases and filling in defaults.
 
 use super::checked::{Depth, FieldOfView, Point, SampleCount, Side, plain};
-use super::names::{PointsName, SamplerName, SpectrumName};
+use super::names::{GamutName, PointsName, SamplerName, SpectrumName};
 use super::schema::{
     CameraDoc, ExposureSpec, FilmDoc, FilterSpec, FormSpec, LightSpec, MaterialSpec, RenderDoc,
     SceneDoc, ShapeSpec,
@@ -9,6 +9,7 @@ use super::schema::{
 use super::{check, parse};
 use crate::error::{Error, ErrorKind};
 use crate::load;
+use spectrum::Bins;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -66,6 +67,8 @@ pub struct FilmSpec {
     pub filter: FilterSpec,
     /// Brightness of the PNG.
     pub exposure: ExposureSpec,
+    /// How the PNG shows colours out of gamut.
+    pub gamut: GamutName,
 }
 
 /// How to render.
@@ -83,10 +86,30 @@ pub struct RenderSpec {
     pub spectrum: SpectrumName,
     /// The range that fixed bins divide, nm; the outermost go on beyond it.
     pub range_nm: [f64; 2],
+    /// Edges of the bins, nm, ascending, in place of the range: for the mode that has as many bins, 8, 16 or 45.
+    pub edges_nm: Option<Vec<f64>>,
     /// For materials that name none themselves.
     pub sampler: SamplerName,
     /// Point set.
     pub points: PointsName,
+}
+
+impl RenderSpec {
+    /// The bins of the mode that has `count` of them.
+    ///
+    /// # Errors
+    /// If the range or the edges are none.
+    pub fn bins(&self, count: usize) -> Result<Bins, Error> {
+        let (bins, field) = match &self.edges_nm {
+            Some(edges) if edges.len() == count + 1 => (Bins::new(edges.clone()), "edges_nm"),
+            _ => (Bins::uniform(count, self.range_nm), "range_nm"),
+        };
+        bins.map_err(|e| {
+            Error::invalid(e.to_string())
+                .in_field(field)
+                .in_field("render")
+        })
+    }
 }
 
 impl SceneFile {
@@ -197,6 +220,7 @@ fn over_base(doc: SceneDoc, home: &Path, depth: usize) -> Result<SceneDoc, Error
             height: doc.film.height.or(film.height),
             filter: doc.film.filter.or(film.filter),
             exposure: doc.film.exposure.or(film.exposure),
+            gamut: doc.film.gamut.or(film.gamut),
         },
         render: RenderDoc {
             spp: doc.render.spp.or(render.spp),
@@ -205,6 +229,7 @@ fn over_base(doc: SceneDoc, home: &Path, depth: usize) -> Result<SceneDoc, Error
             seed: doc.render.seed.or(render.seed),
             spectrum: doc.render.spectrum.or(render.spectrum),
             range_nm: doc.render.range_nm.or(render.range_nm),
+            edges_nm: doc.render.edges_nm.or(render.edges_nm),
             sampler: doc.render.sampler.or(render.sampler),
             points: doc.render.points.or(render.points),
         },
@@ -237,6 +262,7 @@ fn film(doc: FilmDoc) -> FilmSpec {
         height: doc.height.unwrap_or(Side(480)).0,
         filter: doc.filter.unwrap_or(FilterSpec::Box),
         exposure: doc.exposure.unwrap_or(ExposureSpec::Auto),
+        gamut: doc.gamut.unwrap_or(GamutName::Clip),
     }
 }
 
@@ -248,6 +274,7 @@ fn render(doc: RenderDoc) -> RenderSpec {
         seed: doc.seed.unwrap_or(0),
         spectrum: doc.spectrum.unwrap_or(SpectrumName::Rgb),
         range_nm: doc.range_nm.map_or(RANGE_NM, |(from, to)| [from.0, to.0]),
+        edges_nm: doc.edges_nm.map(|e| e.iter().map(|nm| nm.0).collect()),
         sampler: doc.sampler.unwrap_or(SamplerName::Auto),
         points: doc.points.unwrap_or(PointsName::Sobol),
     }

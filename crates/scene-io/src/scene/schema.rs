@@ -6,8 +6,10 @@ use super::checked::{
     Colour, Coordinate, Degrees, Depth, FieldOfView, Kelvin, Point, Positive, Radiometric,
     SampleCount, Segments, Side, Wavelength, Weight,
 };
+use super::colour::ColourChoice;
 use super::names::{
-    BeyondName, GapName, InterpolationName, NegativeName, PointsName, SamplerName, SpectrumName,
+    BeyondName, GamutName, GapName, InterpolationName, NegativeName, PointsName, SamplerName,
+    SpectrumName,
 };
 use super::unique_map::UniqueMap;
 use serde::Deserialize;
@@ -44,6 +46,7 @@ pub(crate) struct FilmDoc {
     pub height: Option<Side>,
     pub filter: Option<FilterSpec>,
     pub exposure: Option<ExposureSpec>,
+    pub gamut: Option<GamutName>,
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -55,6 +58,7 @@ pub(crate) struct RenderDoc {
     pub seed: Option<u64>,
     pub spectrum: Option<SpectrumName>,
     pub range_nm: Option<(Wavelength, Wavelength)>,
+    pub edges_nm: Option<Vec<Wavelength>>,
     pub sampler: Option<SamplerName>,
     pub points: Option<PointsName>,
 }
@@ -127,6 +131,9 @@ pub struct FileMaterial {
     /// Factor per linear sRGB channel, applied last.
     #[serde(default)]
     pub scale: Option<[Weight; 3]>,
+    /// What its numbers mean, where the file is not to be believed.
+    #[serde(default)]
+    pub colour: ColourChoice,
     /// Overrides `render.sampler`.
     #[serde(default)]
     pub sampler: Option<SamplerName>,

@@ -5,17 +5,17 @@ use super::hero::HeroChannels;
 use super::light::{self, LightSum};
 use super::palette::{FixedPalette, HeroPalette, RgbPalette};
 use crate::build::{Parts, Places, native_bands, parts};
-use crate::checkpoint::{self, About};
+use crate::checkpoint::{self, About, Opened};
 use crate::error::Error;
 use crate::image::SpectralPicture;
 use crate::scene::{SceneFile, SpectrumName};
 use brdf::HERO;
-use spectrum::{Basis, Bins};
+use spectrum::Basis;
 use std::borrow::Cow;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
-use tracer::{Film, Hero, LeftOut, Progress, Scene, Settings, Stats, Strategy, Trial};
+use tracer::{Film, Hero, LeftOut, Progress, Scene, Settings, Shard, Stats, Strategy, Trial};
 
 /// A scene of `N` fixed channels that are not linear sRGB.
 #[derive(Debug)]
@@ -50,6 +50,17 @@ impl<const N: usize> ChannelFilm<N> {
             edges_nm,
             planes: (0..N).map(plane).collect(),
         })
+    }
+
+    fn about(&self, about: &About) -> About {
+        let channels = (
+            self.channels.basis().clone(),
+            self.channels.reference().clone(),
+        );
+        About {
+            channels: Some(channels),
+            ..about.clone()
+        }
     }
 
     fn rows(&self) -> [[f64; 3]; N] {
@@ -169,7 +180,42 @@ macro_rules! modes {
             pub fn save(&self, path: &Path, about: &About, key: u64) -> Result<(), Error> {
                 match self {
                     Self::Rgb(f) => checkpoint::save(path, f, about, key),
-                    $(Self::$name(f) => checkpoint::save(path, &f.film, about, key)),+
+                    $(Self::$name(f) => checkpoint::save(path, &f.film, &f.about(about), key)),+
+                }
+            }
+
+            /// The film of a checkpoint of any mode, what is known about it, and its key.
+            ///
+            /// # Errors
+            /// If the file cannot be read, is damaged or of another version.
+            pub fn open(path: &Path) -> Result<(Self, About, u64), Error> {
+                let opened = Opened::new(path)?;
+                let in_file = |e: Error| e.in_file(path);
+                let film = match &opened.about.channels {
+                    None => Self::Rgb(opened.film().map_err(in_file)?),
+                    Some((basis, reference)) => match mode_of(basis) {
+                        $(Some(stringify!($name)) => Self::$name(ChannelFilm {
+                            film: opened.film().map_err(in_file)?,
+                            channels: Arc::new(Channels::new(basis.clone(), reference)),
+                        }),)+
+                        _ => {
+                            let message = "expected the channels of a mode, found others";
+                            return Err(in_file(Error::invalid(message)));
+                        }
+                    },
+                };
+                Ok((film, opened.about, opened.key))
+            }
+
+            /// Takes the tiles of `shard` from a film of the same mode and size.
+            ///
+            /// # Errors
+            /// If it is another's.
+            pub fn take(&mut self, other: &Self, shard: Shard) -> Result<(), Error> {
+                match (self, other) {
+                    (Self::Rgb(to), Self::Rgb(from)) => take(to, from, shard),
+                    $((Self::$name(to), Self::$name(from)) => take(&mut to.film, &from.film, shard),)+
+                    _ => Err(Error::invalid("expected a film of the same mode, found another's")),
                 }
             }
 
@@ -200,6 +246,28 @@ modes! {
     Bands31 = 31,
     /// 65 bands.
     Bands65 = 65,
+}
+
+/// Which of the modes of fixed channels has this basis.
+fn mode_of(basis: &Basis) -> Option<&'static str> {
+    match (basis, basis.len()) {
+        (Basis::Xyz, _) => Some("Xyz"),
+        (Basis::Bins(_), 8) => Some("Bins8"),
+        (Basis::Bins(_), 16) => Some("Bins16"),
+        (Basis::Bins(_), 45) => Some("Bins45"),
+        (Basis::Bands(_), 31) => Some("Bands31"),
+        (Basis::Bands(_), 65) => Some("Bands65"),
+        _ => None,
+    }
+}
+
+fn take<const N: usize>(to: &mut Film<N>, from: &Film<N>, shard: Shard) -> Result<(), Error> {
+    let mine = from.tiles().iter().enumerate();
+    for (index, tile) in mine.filter(|(index, _)| shard.has(*index)) {
+        to.restore(index, tile.done(), tile.sums())
+            .map_err(|e| Error::invalid(e.to_string()))?;
+    }
+    Ok(())
 }
 
 /// Shows a film in linear sRGB to whoever watches.
@@ -235,10 +303,7 @@ pub(crate) fn build(
     let lights = lights(file)?;
     let reference = lights.reference();
     let channels = |basis: Basis| Arc::new(Channels::new(basis, &reference));
-    let bins = |count: usize| {
-        let bins = Bins::uniform(count, file.render.range_nm).map(Basis::Bins);
-        bins.map_err(|e| Error::invalid(e.to_string()).in_field("render.range_nm"))
-    };
+    let bins = |count: usize| file.render.bins(count).map(Basis::Bins);
     Ok(match name {
         SpectrumName::Rgb | SpectrumName::Hero => {
             let palette = HeroPalette::new(HeroChannels::new(&lights));

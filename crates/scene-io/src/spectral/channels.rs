@@ -57,6 +57,12 @@ impl Channels {
         &self.basis
     }
 
+    /// The light that channels are told relative to.
+    #[must_use]
+    pub fn reference(&self) -> &Spectrum {
+        &self.reference
+    }
+
     /// Power of the reference in each channel, such that its integral times y is 1: what one unit stands for.
     #[must_use]
     pub fn power(&self) -> &[f64] {

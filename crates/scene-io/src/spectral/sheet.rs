@@ -2,7 +2,6 @@
 
 use super::study::Study;
 use crate::error::Error;
-use crate::image::{ToneMap, to_srgb8};
 use crate::write;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
@@ -34,7 +33,7 @@ pub fn write_sheet(path: &Path, study: &Study) -> Result<(), Error> {
         for row in 0..h {
             let pixels = &mode.picture.pixels[row * w..(row + 1) * w];
             let at = 3 * ((y + row) * width + x);
-            let bytes = pixels.iter().flat_map(|p| shown(*p, study.tone));
+            let bytes = pixels.iter().flat_map(|p| study.tone.show(*p));
             sheet[at..at + 3 * w]
                 .iter_mut()
                 .zip(bytes)
@@ -65,10 +64,6 @@ pub fn write_sheet(path: &Path, study: &Study) -> Result<(), Error> {
             .write_image(&sheet, width, height, ExtendedColorType::Rgb8)
             .map_err(|e| io::Error::other(e.to_string()))
     })
-}
-
-fn shown(p: [f32; 3], tone: ToneMap) -> [u8; 3] {
-    p.map(|v| to_srgb8(v * tone.scale))
 }
 
 /// A line of text as RGB bytes, and its width in pixels.

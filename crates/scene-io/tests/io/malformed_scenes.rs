@@ -37,7 +37,7 @@ const MISTAKES_OF_FORM: &[(&str, &str)] = &[
     ("film: (width: 64", "4:1: expected comma, found `)`"),
     (
         "film: (widht: 64)",
-        "3:10: film.widht: unexpected field named `widht` in `Film`, expected one of `width`, `height`, `filter`, or `exposure` instead",
+        "3:10: film.widht: unexpected field named `widht` in `Film`, expected one of `width`, `height`, `filter`, `exposure`, or `gamut` instead",
     ),
     (
         "film: (width: \"64\")",
@@ -93,7 +93,7 @@ const MISTAKES_OF_FORM: &[(&str, &str)] = &[
     ),
     (
         "materials: { \"m\": File(file: \"a.binary\") }",
-        "3:26: materials.m.File.file: unexpected field named `file` in `File`, expected one of `path`, `interpolation`, `negatives`, `gap`, `beyond`, `scale`, or `sampler` instead",
+        "3:26: materials.m.File.file: unexpected field named `file` in `File`, expected one of `path`, `interpolation`, `negatives`, `gap`, `beyond`, `scale`, `colour`, or `sampler` instead",
     ),
     (
         "materials: { \"m\": File() }",

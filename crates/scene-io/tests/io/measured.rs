@@ -7,7 +7,9 @@ use glam::DVec3;
 use scene_io::material::{
     Detail, LoadedMeasured, MaterialOptions, Surface, identify, load_measured, material_rgb,
 };
-use scene_io::scene::{BeyondName, GapName, InterpolationName, NegativeName, SamplerName};
+use scene_io::scene::{
+    BeyondName, ColourChoice, GapName, InterpolationName, NegativeName, SamplerName,
+};
 use scene_io::{Cache, Overrides, Places, SceneFile, build_scene, write};
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
@@ -211,7 +213,7 @@ fn the_azimuths_of_a_grid_are_a_full_turn_if_they_are_four_times_the_elevations(
             reciprocal,
             "{dims:?}"
         );
-        let identity = identify(&path).unwrap();
+        let identity = identify(&path, &ColourChoice::default()).unwrap();
         assert_eq!(identity.reciprocal, reciprocal, "{dims:?}");
         let Detail::Grid { dims: found, .. } = identity.detail else {
             panic!("{identity:?}");
@@ -264,7 +266,7 @@ fn what_the_thin_plate_filled_is_in_the_report_of_the_material() {
 #[test]
 fn a_file_is_identified_without_an_interpolant() {
     let (_folder, path) = rows();
-    let identity = identify(&path).unwrap();
+    let identity = identify(&path, &ColourChoice::default()).unwrap();
     assert_eq!((identity.format.name, identity.basis.len()), ("astm", 3));
     assert!(!identity.reciprocal, "rows are not reciprocal");
     let Detail::Rows {
@@ -275,7 +277,9 @@ fn a_file_is_identified_without_an_interpolant() {
         panic!("{identity:?}");
     };
     assert_eq!((rows, negative_values), (64, negative_blues()));
-    let missing = identify(Path::new("missing.astm")).unwrap_err().to_string();
+    let missing = identify(Path::new("missing.astm"), &ColourChoice::default())
+        .unwrap_err()
+        .to_string();
     assert!(missing.starts_with("missing.astm: "), "{missing}");
 }
 

@@ -4,6 +4,7 @@ use scene_io::compare;
 use scene_io::image::{
     Metadata, Picture, ToneMap, read_exr, read_exr_bytes, to_srgb8, write_exr, write_png,
 };
+use spectrum::GamutMapping;
 
 /// Values that f16, 8 bits or any lossy compression would change, some negative.
 fn picture() -> Picture {
@@ -64,10 +65,37 @@ fn png_holds_the_tone_mapped_picture() {
     let path = folder.path().join("out.png");
     let pixels = vec![[0.0, 0.5, 1.0], [0.1, -1.0, f32::NAN]];
     let picture = Picture::new(2, 1, pixels).unwrap();
-    write_png(&path, &picture, ToneMap { scale: 1.0 }).unwrap();
+    let tone = |gamut| ToneMap { scale: 1.0, gamut };
+    let report = write_png(&path, &picture, tone(GamutMapping::Clip)).unwrap();
     let image = image::open(&path).unwrap().into_rgb8();
     // sRGB of 0.5 is 0.7354 -> 188; of 0.1 is 0.3492 -> 89
     assert_eq!(image.into_raw(), [0, 188, 255, 89, 0, 0]);
+    assert_eq!((report.outside, report.of), (1, 2));
+    assert!((report.worst + 1.0).abs() < 1e-6, "{report:?}");
+}
+
+#[test]
+fn colours_out_of_gamut_are_shown_as_the_name_says() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("out.png");
+    let red = [0.5, -0.05, 0.01];
+    let picture = Picture::new(2, 1, vec![red, [0.2; 3]]).unwrap();
+    let mut shown = Vec::new();
+    for gamut in [GamutMapping::Clip, GamutMapping::Desaturate] {
+        let report = write_png(&path, &picture, ToneMap { scale: 1.0, gamut }).unwrap();
+        assert_eq!((report.outside, report.of), (1, 2), "{gamut:?}");
+        assert!((report.worst + 0.1).abs() < 1e-6, "{report:?}");
+        let bytes = image::open(&path).unwrap().into_rgb8().into_raw();
+        let expected = gamut.apply(red.map(f64::from)).map(|v| to_srgb8(v as f32));
+        assert_eq!(bytes[..3], expected, "{gamut:?}");
+        shown.push(bytes);
+    }
+    assert_eq!(shown[0][3..], shown[1][3..], "grey is left alone");
+    assert!(shown[0][..3] != shown[1][..3], "two mappings");
+    // the film is never clipped
+    let exr = folder.path().join("out.exr");
+    write_exr(&exr, &picture).unwrap();
+    assert_eq!(read_exr(&exr).unwrap().pixels[0], red);
 }
 
 #[test]

@@ -182,6 +182,170 @@ fn metamers_part_under_another_light_as_theory_says() {
     }
 }
 
+/// A wall of one colour that fills the picture, in even white light.
+fn wall(material: &str, render: &str) -> String {
+    format!(
+        r#"(
+    camera: (position: (0, 0, 3), target: (0, 0, 0), fov_y_deg: 40),
+    film: (width: 2, height: 1), render: (spp: 512, depth: 1, {render}),
+    materials: {{ "wall": {material}, "part": Lambert(reflectance: (0.8, 0.1, 0.3)), "other": Lambert(reflectance: (0.0, 0.9, 0.5)) }},
+    shapes: [(form: Quad(corner: (-5, -5, 0), edge_u: (10, 0, 0), edge_v: (0, 10, 0)), material: "wall")],
+    lights: [Constant(radiance: 1)],
+)"#
+    )
+}
+
+/// The colour of the wall, linear sRGB.
+fn seen(material: &str, name: SpectrumName) -> [f64; 3] {
+    film(&wall(material, ""), name, 1).rgb().mean()[0]
+}
+
+#[test]
+fn colours_of_a_scene_come_back_in_every_mode() {
+    for [r, g, b] in [
+        [0.02, 0.7, 0.05],
+        [0.9, 0.03, 0.1],
+        [0.0, 0.0, 1.0],
+        [1.0, 1.0, 0.0],
+        [0.18, 0.18, 0.18],
+    ] {
+        let material = format!("Lambert(reflectance: ({r}, {g}, {b}))");
+        // what bins lose in one reflection: [JakobHanika2019] is met to 1e-9 by the spectrum itself, XYZ by the film
+        for (name, bound) in [
+            (SpectrumName::Rgb, 1e-6),
+            (SpectrumName::Xyz, 2e-6),
+            (SpectrumName::Eight, 0.06),
+            (SpectrumName::Sixteen, 0.02),
+            (SpectrumName::FortyFive, 2e-3),
+            (SpectrumName::Native, 2e-3),
+            (SpectrumName::Hero, 3e-4),
+        ] {
+            let found = seen(&material, name);
+            for (f, e) in found.iter().zip([r, g, b]) {
+                assert!((f - e).abs() < bound, "{material} in {name}: {found:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn flat_colours_are_smooth_spectra_and_mixtures_are_linear() {
+    // reflected twice between walls a colour shows its spectrum: the sigmoid of a green is not the linear basis'
+    let [green, linear] = [
+        spectrum::SigmoidFitter::new()
+            .fit([0.1, 0.6, 0.2])
+            .sigmoid
+            .spectrum(),
+        spectrum::LinearUplift::spectrum([0.1, 0.6, 0.2]),
+    ];
+    let spectral = |material: &str| {
+        let film = film(
+            &wall(material, "range_nm: (400, 700)"),
+            SpectrumName::FortyFive,
+            1,
+        );
+        let film = film.spectral().unwrap();
+        let white = self::film(
+            &wall("Lambert(reflectance: 1)", "range_nm: (400, 700)"),
+            SpectrumName::FortyFive,
+            1,
+        );
+        let white = white.spectral().unwrap();
+        let of = |k: usize| f64::from(film.planes[k][0]) / f64::from(white.planes[k][0]);
+        (0..45)
+            .map(|k| (film.lambda_nm[k], of(k)))
+            .collect::<Vec<_>>()
+    };
+    let found = spectral("Lambert(reflectance: (0.1, 0.6, 0.2))");
+    let away = |s: &Spectrum| {
+        found
+            .iter()
+            .map(|(nm, v)| (v - s.at(*nm)).abs())
+            .fold(0.0, f64::max)
+    };
+    assert!(
+        away(&green) < 0.02 && away(&linear) > 0.1,
+        "{} and {}",
+        away(&green),
+        away(&linear)
+    );
+    // half of each: the linear uplift of half the sum
+    let mixed = spectral("Mix(parts: [(\"part\", 0.5), (\"other\", 0.5)])");
+    let sum = spectrum::LinearUplift::spectrum([0.4, 0.5, 0.4]);
+    for (nm, v) in mixed {
+        // cells of the grid are f32
+        assert!(
+            (v - sum.at(nm)).abs() < 0.02,
+            "{nm} nm: {v} and {}",
+            sum.at(nm)
+        );
+    }
+}
+
+#[test]
+fn ranges_and_edges_of_bins_are_what_the_scene_says() {
+    let edges = [
+        400.0, 430.0, 470.0, 500.0, 540.0, 580.0, 600.0, 640.0, 700.0,
+    ];
+    let list: Vec<String> = edges.iter().map(f64::to_string).collect();
+    let render = format!("edges_nm: [{}], range_nm: (420, 680)", list.join(", "));
+    let text = wall("Lambert(reflectance: 0.5)", &render);
+    let planes = |name| film(&text, name, 1).spectral().unwrap().edges_nm;
+    assert_eq!(planes(SpectrumName::Eight), edges);
+    let sixteen = planes(SpectrumName::Sixteen);
+    assert_eq!((sixteen[0], sixteen[16], sixteen.len()), (420.0, 680.0, 17));
+    // white stays white whatever the bins
+    for name in [SpectrumName::Eight, SpectrumName::Sixteen] {
+        for v in film(&text, name, 1).rgb().mean()[0] {
+            assert!((v - 0.5).abs() < 1e-6, "{name}: {v}");
+        }
+    }
+    for (bad, expected) in [
+        (
+            "edges_nm: [400, 500]",
+            "render.edges_nm: expected 9, 17 or 46 edges for 8, 16 or 45 bins, found 2",
+        ),
+        (
+            "edges_nm: [400, 430, 420, 500, 540, 580, 600, 640, 700]",
+            "render.edges_nm: edge 2 (from 0) is 420 nm",
+        ),
+        (
+            "edges_nm: [1]",
+            "a wavelength from 100 to 10000 nm, found 1",
+        ),
+        (
+            "range_nm: (700, 400)",
+            "render.range_nm: expected two ascending wavelengths",
+        ),
+    ] {
+        let text = wall("Lambert(reflectance: 0.5)", bad);
+        let error = SceneFile::from_text(&text, Path::new("s"), Path::new(""))
+            .unwrap_err()
+            .to_string();
+        assert!(error.contains(expected), "{bad}: {error}");
+    }
+}
+
+#[test]
+fn hero_is_as_even_under_lines_as_under_daylight() {
+    let noise = |light: &str| {
+        let text = wall("Lambert(reflectance: (0.7, 0.4, 0.2))", "")
+            .replace(
+                "radiance: 1",
+                &format!("radiance: 1, spectrum: Illuminant(\"{light}\")"),
+            )
+            .replace("spp: 512", "spp: 128");
+        film(&text, SpectrumName::Hero, 1)
+            .rgb()
+            .estimate(0.95)
+            .rel_rmse
+    };
+    let [even, lines] = [noise("D65"), noise("F11")];
+    // 16 samples a replicate: what wavelengths leave of noise, path noise being none on an even wall
+    println!("D65 {even:.2e}, F11 {lines:.2e}");
+    assert!(lines < 0.01, "{lines}, D65: {even}");
+}
+
 #[test]
 fn spectral_pictures_come_back_bit_by_bit() {
     let folder = tempfile::tempdir().unwrap();

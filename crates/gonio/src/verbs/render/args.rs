@@ -1,9 +1,9 @@
 //! `gonio render` as typed.
 
 use super::strategy::LightStrategy;
-use crate::args::{parse_exr, parse_size, with_ending};
+use crate::args::{ColourArgs, Range, parse_exr, parse_size, with_ending};
 use clap::Args;
-use scene_io::scene::{InterpolationName, SamplerName, SpectrumName};
+use scene_io::scene::{GamutName, InterpolationName, SamplerName, SpectrumName};
 use std::path::PathBuf;
 use tracer::Shard;
 
@@ -39,6 +39,14 @@ pub(crate) struct Render {
     /// What the channels are: rgb, xyz, 8, 16, 45, native or hero.
     #[arg(long, value_name = "NAME")]
     pub(crate) spectrum: Option<SpectrumName>,
+    /// The range that 8, 16 and 45 bins divide, nm, such as 410..690.
+    #[arg(long, value_name = "FROM..TO")]
+    pub(crate) range: Option<Range>,
+    /// How the PNG shows colours out of gamut: clip or desaturate.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) gamut: Option<GamutName>,
+    #[command(flatten)]
+    pub(crate) colour: ColourArgs,
     /// How directions are chosen on measured materials.
     #[arg(long, value_name = "NAME")]
     pub(crate) sampler: Option<SamplerName>,

@@ -39,6 +39,8 @@ impl Keeper {
                 seed: built.settings.seed,
                 spp: built.settings.spp,
                 exposure,
+                gamut: built.file.film.gamut.mapping(),
+                channels: None,
                 shard: built.settings.shard,
             },
             key: fingerprint(&built.file, &built.settings, places),

@@ -3,6 +3,7 @@
 use super::trace::Aimed;
 use super::{Render, Traced, strategy};
 use crate::output::say;
+use crate::pictures::Gamut;
 use scene_io::BuiltScene;
 use scene_io::rows::{CONFIDENCE, Row};
 use scene_io::spectral::AnyScene;
@@ -76,6 +77,8 @@ pub(super) struct Report {
     target: Option<TargetJson>,
     rows: Vec<RowJson>,
     left_out: Vec<String>,
+    /// Of the PNG; nothing where none is written.
+    pub(super) gamut: Option<Gamut>,
     interrupted: bool,
 }
 
@@ -107,6 +110,7 @@ impl Report {
             target: traced.aimed.as_ref().map(TargetJson::from),
             rows: traced.rows.iter().map(RowJson::from).collect(),
             left_out: left_out(built),
+            gamut: None,
             interrupted: traced.interrupted,
         }
     }
@@ -130,6 +134,9 @@ impl Report {
             target.print(out)?;
         }
         self.print_error(out)?;
+        if let Some(gamut) = &self.gamut {
+            gamut.print(out)?;
+        }
         for path in &self.written {
             writeln!(out, "wrote {}", path.display())?;
         }

@@ -49,12 +49,6 @@ pub(super) fn trace(
         REPLICATES.min(built.settings.spp.max(1))
     };
     let mut film = built.scene.film([width, height], replicates);
-    if args.shard.is_some() && !matches!(film, AnyFilm::Rgb(_)) {
-        bail!(
-            "expected the spectrum rgb or hero for --shard, found {}",
-            built.file.render.spectrum.name()
-        );
-    }
     let keeper =
         (args.checkpoint.as_ref()).map(|path| Keeper::new(path, args, built, &context.places));
     if let Some(keeper) = &keeper {
