@@ -42,6 +42,7 @@ mod tests {
 
     #[test]
     fn white_and_black() {
+        // D65 by [Lindbloom]; any white would do
         let white = [0.95047, 1.0, 1.08883];
         for (xyz, lab) in [(white, [100.0, 0.0, 0.0]), ([0.0; 3], [0.0; 3])] {
             let found = lab_from_xyz(xyz, white);
@@ -54,6 +55,7 @@ mod tests {
 
     #[test]
     fn there_and_back() {
+        // likewise
         let white = [0.95047, 1.0, 1.08883];
         for k in 0..200 {
             let xyz = [

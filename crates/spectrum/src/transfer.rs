@@ -35,6 +35,7 @@ mod tests {
             assert!((srgb_decode(srgb_encode(x)) - x).abs() < 1e-7, "{x}");
         }
         assert!((srgb_encode(1.0) - 1.0).abs() < 1e-15);
+        // by hand: 1.055 * 0.18^(1/2.4) - 0.055 [Iec61966]
         assert!((srgb_encode(0.18) - 0.46135).abs() < 1e-5);
     }
 }

@@ -48,8 +48,10 @@ pub struct White(pub [f64; 2]);
 #[serde(try_from = "Colour")]
 pub struct FileScale(pub [f64; 3]);
 
+type Space = fn() -> RgbSpace;
+
 /// Spaces that primaries may be named after.
-const SPACES: [(&str, fn() -> RgbSpace); 4] = [
+const SPACES: [(&str, Space); 4] = [
     ("sRGB", RgbSpace::srgb),
     ("Rec.2020", RgbSpace::rec2020),
     ("ACEScg", RgbSpace::acescg),

@@ -149,7 +149,7 @@ fn what_is_in_effect_is_told_with_its_source() {
         [Source::Convention; 3]
     );
     assert!(
-        (meaning.scale[0] - 1.0 / 0.3582531).abs() < 1e-12,
+        (meaning.scale[0] - RgbSpace::trinitron().white_level.recip()).abs() < 1e-12,
         "{meaning:?}"
     );
     let said = identify(&path, &choice("", "0.33,0.34", "2,3,4")).unwrap();

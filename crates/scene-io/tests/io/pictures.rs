@@ -68,7 +68,7 @@ fn png_holds_the_tone_mapped_picture() {
     let tone = |gamut| ToneMap { scale: 1.0, gamut };
     let report = write_png(&path, &picture, tone(GamutMapping::Clip)).unwrap();
     let image = image::open(&path).unwrap().into_rgb8();
-    // sRGB of 0.5 is 0.7354 -> 188; of 0.1 is 0.3492 -> 89
+    // [Iec61966]: sRGB of 0.5 is 0.7354 -> 188; of 0.1 is 0.3492 -> 89
     assert_eq!(image.into_raw(), [0, 188, 255, 89, 0, 0]);
     assert_eq!((report.outside, report.of), (1, 2));
     assert!((report.worst + 1.0).abs() < 1e-6, "{report:?}");
