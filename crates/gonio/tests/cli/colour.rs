@@ -25,7 +25,7 @@ fn info_shows_what_is_in_effect_and_who_says_so() {
     );
     let said = bench.json("info m.binary --primaries Rec.2020 --white D50 --scale 1,2,3");
     assert_eq!(said["primaries_name"], "Rec.2020");
-    assert_eq!(numbers(&said["scale"]), [1.0, 2.0, 3.0]);
+    assert_eq!(numbers(&said["scale"]), vec![1.0, 2.0, 3.0]);
     for key in ["channels_from", "white_from", "scale_from"] {
         assert_eq!(said[key], "user", "{said}");
     }

@@ -171,7 +171,7 @@ mod tests {
         assert_eq!(named.xy, plain.xy);
         assert_eq!((named.name(), plain.name()), (Some("Rec.2020"), None));
         assert_eq!((named.white, plain.white), (Some(D65_XY), None));
-        assert_eq!("D65".parse::<White>().unwrap().0, D65_XY);
+        assert_eq!("D65".parse::<White>(), Ok(White(D65_XY)));
         // [Cie15] illuminant A; five digits, by sums of 5 nm
         let [x, y] = "A".parse::<White>().unwrap().0;
         assert!(
