@@ -3,6 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "helpers of tests may fail like tests")]
 #![expect(clippy::float_cmp, reason = "files keep every bit")]
 
+mod colour_conformance;
 mod file_colour;
 mod files;
 mod malformed_files;
