@@ -15,7 +15,7 @@ use crate::overrides::Overrides;
 use crate::scene::{ExposureSpec, FilterSpec, MaterialSpec, PointsName, SceneFile};
 use crate::spectral::{self, AnyScene, Palette, RgbPalette};
 use glam::DVec3;
-use tracer::{Camera, Description, PixelFilter, PointSet, Scene, Settings};
+use tracer::{Camera, Description, LightSelection, PixelFilter, PointSet, Scene, Settings};
 
 /// Where the files of a scene are found and kept.
 #[derive(Clone, Debug, Default)]
@@ -157,6 +157,7 @@ pub(crate) fn parts<const N: usize, P: Palette<N>>(
         objects,
         lights,
         environment,
+        selection: LightSelection::Auto,
     };
     notes.extend(uneven(file, &used.reports));
     let scene =

@@ -5,7 +5,7 @@ use brdf_models::parse_model_n;
 use glam::{DAffine3, DVec3, Vec3};
 use sampling::{Rng, warp};
 use spectrum::Samples;
-use tracer::{Camera, Description, Environment, Mesh, Object, Scene, Shape};
+use tracer::{Camera, Description, Environment, LightSelection, Mesh, Object, Scene, Shape};
 
 /// A Lambert surface; none only if the registry had no such model.
 pub(crate) fn lambert(albedo: f64) -> Option<Box<dyn Material<1>>> {
@@ -26,6 +26,7 @@ pub(crate) fn empty(albedo: f64) -> Option<Description<1>> {
         objects: vec![],
         lights: vec![],
         environment: None,
+        selection: LightSelection::Auto,
     })
 }
 

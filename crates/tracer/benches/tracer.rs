@@ -13,7 +13,10 @@ use spectrum::Samples;
 use std::f32::consts::PI;
 use std::num::NonZeroUsize;
 use std::time::Duration;
-use tracer::{Camera, Description, Film, Mesh, Object, Scene, Settings, Shape, Strategy, render};
+use tracer::{
+    Camera, Description, Film, LightSelection, Mesh, Object, Scene, Settings, Shape, Strategy,
+    render,
+};
 
 /// albedo / pi.
 struct Lambert(f32);
@@ -139,6 +142,7 @@ fn benchmark(middle: Shape, transform: DAffine3) -> Scene<3> {
         objects: vec![middle, ground, light],
         lights: vec![],
         environment: None,
+        selection: LightSelection::Auto,
     })
     .unwrap()
 }
@@ -239,6 +243,7 @@ fn rays(c: &mut Criterion) {
             objects: vec![Object::new(Shape::Mesh(bumpy()), 0)],
             lights: vec![],
             environment: None,
+            selection: LightSelection::Auto,
         })
         .unwrap();
         let settings = Settings {

@@ -273,12 +273,14 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
         } else {
             scene.surfaces[scene.geometry.object(prim) as usize].light
         };
-        let Some(light) = kernel.lights.lights.get(light as usize) else {
+        let index = light as usize;
+        let Some(light) = kernel.lights.lights.get(index) else {
             return;
         };
         let weight = if depth > 0 && kernel.weigh {
             let pdf = self.paths.pdf[i];
             let other = kernel.candidates as f32
+                * kernel.lights.probability(index, o)
                 * light.pdf(o, d, hits.t[k], || scene.geometry.flat_normal(prim));
             // written so that an infinite density of the material gives one
             1.0 / (1.0 + other / pdf)

@@ -72,7 +72,8 @@ impl<const N: usize, S: Mode<N>> Builder<N, S> {
         self.close_geometry(&objects);
         self.point_lights()?;
         let environment = self.environment()?;
-        let lights = Lights::new(self.lights.clone(), &self.powers);
+        let selection = self.description.selection;
+        let lights = Lights::new(self.lights.clone(), &self.powers, selection);
         let with_constant: Vec<_> = (self.powers.iter())
             .zip(&self.lights)
             .map(|(power, light)| match light.emitter {
@@ -80,7 +81,7 @@ impl<const N: usize, S: Mode<N>> Builder<N, S> {
                 _ => *power,
             })
             .collect();
-        let all_lights = Lights::new(std::mem::take(&mut self.lights), &with_constant);
+        let all_lights = Lights::new(std::mem::take(&mut self.lights), &with_constant, selection);
         Ok(Scene {
             mode,
             camera: self.description.camera,
@@ -269,7 +270,6 @@ impl<const N: usize, S: Mode<N>> Builder<N, S> {
                 emitter: Emitter::Constant,
                 strength: emission.clone(),
                 prim: NONE,
-                probability: 0.0,
             });
             self.powers.push(None);
         }
@@ -293,7 +293,6 @@ impl<const N: usize, S: Mode<N>> Builder<N, S> {
             emitter,
             strength: emission.clone(),
             prim: NONE,
-            probability: 0.0,
         });
     }
 
@@ -324,12 +323,18 @@ impl<const N: usize, S: Mode<N>> Builder<N, S> {
             })
             .collect();
         let base = self.geometry.first_triangle();
+        let mut members: Vec<(Vec<Triangle>, Vec<u32>)> = vec![Default::default(); objects.len()];
+        for (&i, prim) in order.iter().zip(base..) {
+            if let Some(l) = loose.get(i as usize) {
+                let object = l.info.object as usize;
+                if shining(&objects[object]).is_some() {
+                    members[object].0.push(l.triangle);
+                    members[object].1.push(prim);
+                }
+            }
+        }
         for shining in std::mem::take(&mut self.shining) {
-            let (members, prims): (Vec<_>, Vec<_>) = (order.iter().zip(base..))
-                .filter_map(|(&i, prim)| Some((loose.get(i as usize)?, prim)))
-                .filter(|(l, _)| l.info.object as usize == shining.object)
-                .map(|(l, prim)| (l.triangle, prim))
-                .unzip();
+            let (members, prims) = std::mem::take(&mut members[shining.object]);
             if let Some(light) = TriangleLight::new(members, prims) {
                 let emission = objects[shining.object].emission.as_ref();
                 let emission = emission.map_or(0.0, Emission::brightness);

@@ -49,7 +49,6 @@ impl<const N: usize, S: Mode<N>> Builder<N, S> {
                 emitter,
                 strength: strength.clone(),
                 prim: NONE,
-                probability: 0.0,
             });
         }
         Ok(())
@@ -91,7 +90,6 @@ impl<const N: usize, S: Mode<N>> Builder<N, S> {
             emitter,
             strength: strength.clone(),
             prim: NONE,
-            probability: 0.0,
         });
         Ok(Some(index))
     }

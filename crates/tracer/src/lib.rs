@@ -46,7 +46,7 @@ pub use choose::{Trial, choose_strategy};
 pub use estimate::Estimate;
 pub use film::{Film, RestoreError, Tile};
 pub use filter::PixelFilter;
-pub use light::{Environment, EnvironmentImage, PointLight};
+pub use light::{Environment, EnvironmentImage, LightSelection, MANY, PointLight};
 pub use mode::{Develop, Emission, Fixed, Hero, HeroEmission, Mode};
 pub use plan::LeftOut;
 pub use probe::{Meeting, TowardLight};

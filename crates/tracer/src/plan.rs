@@ -20,6 +20,8 @@ pub enum LeftOut {
     Lights,
     /// One light to ask: no choice, one dimension of the points less.
     LightChoice,
+    /// Few lights: they are chosen by power, no tree is built or walked.
+    LightTree,
     /// No roulette: no chance drawn, no path ended by it.
     Roulette,
     /// Even pixels: no table of filter quantiles.
@@ -34,6 +36,7 @@ impl fmt::Display for LeftOut {
             Self::Environment => "environment: rays that leave the scene end at once",
             Self::Lights => "asking lights: no evaluations for them, no shadow rays",
             Self::LightChoice => "choice of a light: one dimension of the points less",
+            Self::LightTree => "light tree: with few lights each vertex chooses by power",
             Self::Roulette => "roulette: no path ends by chance",
             Self::Filter => "pixel filter: samples are even over the pixel",
         })
@@ -55,6 +58,7 @@ impl<const N: usize, S: Mode<N>> Scene<N, S> {
             (LeftOut::Environment, self.environment.is_none()),
             (LeftOut::Lights, !asked),
             (LeftOut::LightChoice, asked && !lights.several()),
+            (LeftOut::LightTree, asked && !lights.by_tree()),
             (LeftOut::Roulette, settings.roulette.is_none()),
             (LeftOut::Filter, settings.filter == PixelFilter::Box),
         ];

@@ -3,7 +3,7 @@
 //! For checks and for picking; [`crate::render`] asks them for thousands of paths at once, of the same code.
 
 use crate::geometry::Geometry;
-use crate::light::{Light, LightLanes};
+use crate::light::LightLanes;
 use crate::math::splat3;
 use crate::mode::Mode;
 use crate::path::{HitLanes, NONE, RayLanes};
@@ -71,6 +71,29 @@ impl<const N: usize, S: Mode<N>> Scene<N, S> {
         self.lights.lights.len()
     }
 
+    /// The light that a vertex at `p` asks by a number in [0, 1), and the probability of this choice; `None` if no light
+    /// is ever asked.
+    #[must_use]
+    pub fn choose_light(&self, p: Vec3, u: f32) -> Option<(usize, f32)> {
+        self.lights.any().then(|| self.lights.choose(p, u))
+    }
+
+    /// The probability with which [`Self::choose_light`] takes light number `light` at `p`.
+    #[must_use]
+    pub fn light_probability(&self, light: usize, p: Vec3) -> f32 {
+        if light < self.lights() {
+            self.lights.probability(light, p)
+        } else {
+            0.0
+        }
+    }
+
+    /// Whether [`Self::choose_light`] walks a tree.
+    #[must_use]
+    pub fn has_light_tree(&self) -> bool {
+        self.lights.by_tree()
+    }
+
     /// The direction that light number `light` gives the point `p` for two numbers in [0, 1); `None` if there is no such
     /// light.
     #[must_use]
@@ -78,11 +101,17 @@ impl<const N: usize, S: Mode<N>> Scene<N, S> {
         let light = self.lights.lights.get(light)?;
         let mut lanes = LightLanes::<N>::EMPTY;
         let tags = [S::Tag::FIRST; LANES];
-        light.sample(&splat3(p), &u.map(|u| [u; LANES]), &tags, &mut lanes);
+        light.sample(
+            &splat3(p),
+            &u.map(|u| [u; LANES]),
+            &tags,
+            0..LANES,
+            &mut lanes,
+        );
         Some(TowardLight {
             wi: lanes.wi.get(0),
             distance: lanes.distance[0],
-            pdf: given(light, lanes.pdf[0]),
+            pdf: lanes.pdf[0],
         })
     }
 
@@ -99,19 +128,10 @@ impl<const N: usize, S: Mode<N>> Scene<N, S> {
         };
         if index as usize == light {
             let normal = || self.geometry.flat_normal(prim);
-            given(chosen, chosen.pdf(p, d, distance, normal))
+            chosen.pdf(p, d, distance, normal)
         } else {
             0.0
         }
-    }
-}
-
-/// A density without the probability that the light was chosen.
-fn given<E>(light: &Light<E>, pdf: f32) -> f32 {
-    if light.probability > 0.0 {
-        pdf / light.probability
-    } else {
-        0.0
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::build::Builder;
 use crate::camera::Camera;
 use crate::geometry::{Geometry, TriangleInfo};
-use crate::light::{Environment, Lights, PointLight};
+use crate::light::{Environment, LightSelection, Lights, PointLight};
 use crate::mode::{Fixed, Mode};
 use crate::path::NONE;
 use crate::shape::Shape;
@@ -54,6 +54,8 @@ pub struct Description<const N: usize, S: Mode<N> = Fixed> {
     pub lights: Vec<PointLight<S::Emission>>,
     /// What is seen where nothing is; `None` is black.
     pub environment: Option<Environment<S::Emission>>,
+    /// How vertices choose among lights.
+    pub selection: LightSelection,
 }
 
 impl<const N: usize, S: Mode<N>> std::fmt::Debug for Description<N, S> {

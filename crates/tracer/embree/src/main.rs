@@ -10,7 +10,7 @@ mod embree;
 use brdf::{EvalPacket, Material, SamplePacket};
 use glam::{DVec3, Vec3};
 use std::time::Instant;
-use tracer::{Camera, Description, Mesh, Object, Ray, Scene, Shape};
+use tracer::{Camera, Description, LightSelection, Mesh, Object, Ray, Scene, Shape};
 
 /// Nothing is shaded here.
 struct Black;
@@ -110,6 +110,7 @@ fn scene(positions: &[Vec3], triangles: &[[u32; 3]]) -> Scene<1> {
         objects: vec![Object::new(Shape::Mesh(mesh), 0)],
         lights: vec![],
         environment: None,
+        selection: LightSelection::Auto,
     })
     .expect("a mesh makes a scene")
 }

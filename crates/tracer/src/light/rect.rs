@@ -45,6 +45,15 @@ struct Seen {
 }
 
 impl RectLight {
+    /// Corners of the box around it.
+    pub(crate) fn bounds(&self) -> [Vec3; 2] {
+        let (x, y) = (self.x * self.extent[0], self.y * self.extent[1]);
+        let corners = [x, y, x + y].map(|to| self.corner + to);
+        let low = corners.iter().fold(self.corner, |a, b| a.min(*b));
+        let high = corners.iter().fold(self.corner, |a, b| a.max(*b));
+        [low, high]
+    }
+
     #[inline(always)]
     fn seen(&self, p: Vec3) -> Seen {
         let to = self.corner - p;

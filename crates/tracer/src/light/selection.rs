@@ -1,27 +1,62 @@
 //! Which light a vertex asks.
 
-use super::{Light, LightLanes};
+use super::bound::Bound;
+use super::tree::{LightTree, Member};
+use super::{Emitter, Light, LightLanes};
 use crate::math::F;
 use crate::mode::Emission;
 use brdf::{LANES, Lanes3, Tag};
+use glam::Vec3;
+use std::f64::consts::PI;
 
-/// The lights of a scene. `lights[..asked]` take part in the choice, in proportion to their power mixed with an even
-/// share, so that a weak light near by is not starved.
+/// How a vertex chooses among lights.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum LightSelection {
+    /// By power for a few lights, by a tree from [`MANY`] on.
+    #[default]
+    Auto,
+    /// In proportion to power, mixed with an even share.
+    Power,
+    /// By a tree over position, orientation and intensity.
+    Tree,
+}
+
+/// Lights of finite extent from which [`LightSelection::Auto`] takes the tree (measured: docs/scenes.md).
+pub const MANY: usize = 16;
+
+/// The lights of a scene, and how one of them is chosen.
 #[derive(Clone, Debug)]
 pub(crate) struct Lights<E> {
     pub(crate) lights: Vec<Light<E>>,
-    /// Probabilities up to and with each light.
-    cdf: Vec<f32>,
-    /// The only light with a probability, if there is just one.
-    only: Option<usize>,
+    choice: Choice,
 }
 
-/// The part of the choice that ignores power.
+#[derive(Clone, Debug)]
+enum Choice {
+    /// No light can be asked.
+    Nothing,
+    /// One can.
+    Only(usize),
+    Shares(Shares),
+    /// Far lights by their shares, of which the first belongs to the tree.
+    Tree(Shares, LightTree),
+}
+
+/// Fixed probabilities.
+#[derive(Clone, Debug)]
+struct Shares {
+    probabilities: Vec<f32>,
+    /// Probabilities up to and with each.
+    cdf: Vec<f32>,
+}
+
+/// The part of fixed probabilities that ignores power, so that a weak light near by is not starved.
 const EVEN: f64 = 0.5;
 
-impl<E> Lights<E> {
-    /// From lights and their powers; a power of `None` keeps a light out of the choice.
-    pub(crate) fn new(mut lights: Vec<Light<E>>, powers: &[Option<f64>]) -> Self {
+impl Shares {
+    /// From powers; `None` keeps one out of the choice.
+    fn new(powers: &[Option<f64>]) -> Self {
         let total: f64 = powers.iter().flatten().sum();
         let count = powers.iter().flatten().count() as f64;
         let share = |power: &Option<f64>| match power {
@@ -38,22 +73,90 @@ impl<E> Lights<E> {
                 sum as f32
             })
             .collect();
-        for (light, share) in lights.iter_mut().zip(&shares) {
-            light.probability = *share as f32;
+        Self {
+            probabilities: shares.iter().map(|&p| p as f32).collect(),
+            cdf,
         }
-        let mut asked = (0..lights.len()).filter(|&i| shares[i] > 0.0);
-        let only = asked.next().filter(|_| asked.next().is_none());
-        Self { lights, cdf, only }
+    }
+
+    #[inline]
+    fn sample(&self, u: f32) -> usize {
+        let last = self.cdf.len() - 1;
+        self.cdf.partition_point(|&c| c <= u).min(last)
+    }
+
+    /// What is left of `u` after the first was chosen.
+    #[inline]
+    fn rest_of_first(&self, u: f32) -> f32 {
+        // the largest number below 1
+        (u / self.cdf[0]).min(1.0 - f32::EPSILON / 2.0)
+    }
+}
+
+impl<E> Lights<E> {
+    /// From lights and their powers; a power of `None` keeps a light out of the choice.
+    pub(crate) fn new(
+        lights: Vec<Light<E>>,
+        powers: &[Option<f64>],
+        selection: LightSelection,
+    ) -> Self {
+        let mut asked = (0..lights.len()).filter(|&i| powers[i].is_some());
+        let choice = match (asked.next(), asked.next()) {
+            (None, _) => Choice::Nothing,
+            (Some(i), None) => Choice::Only(i),
+            _ => several(&lights, powers, selection),
+        };
+        Self { lights, choice }
     }
 
     /// Whether any light can be asked.
     pub(crate) fn any(&self) -> bool {
-        self.cdf.last().is_some_and(|&p| p > 0.0)
+        !matches!(self.choice, Choice::Nothing)
     }
 
     /// Whether the choice takes a random number.
     pub(crate) fn several(&self) -> bool {
-        self.any() && self.only.is_none()
+        matches!(self.choice, Choice::Shares(_) | Choice::Tree(..))
+    }
+
+    /// Whether a tree makes the choice.
+    pub(crate) fn by_tree(&self) -> bool {
+        matches!(self.choice, Choice::Tree(..))
+    }
+
+    /// A light for the point `p` by a number in [0, 1), and its probability there.
+    #[inline]
+    pub(crate) fn choose(&self, p: Vec3, u: f32) -> (usize, f32) {
+        match &self.choice {
+            Choice::Nothing => (0, 0.0),
+            Choice::Only(i) => (*i, 1.0),
+            Choice::Shares(shares) => {
+                let i = shares.sample(u);
+                (i, shares.probabilities[i])
+            }
+            Choice::Tree(shares, tree) => match shares.sample(u) {
+                0 => {
+                    let (i, probability) = tree.sample(p, shares.rest_of_first(u));
+                    (i, shares.probabilities[0] * probability)
+                }
+                i => (i - 1, shares.probabilities[i]),
+            },
+        }
+    }
+
+    /// The probability that [`Self::choose`] takes `light` at `p`.
+    #[inline]
+    pub(crate) fn probability(&self, light: usize, p: Vec3) -> f32 {
+        match &self.choice {
+            Choice::Nothing => 0.0,
+            Choice::Only(i) => f32::from(u8::from(*i == light)),
+            Choice::Shares(shares) => shares.probabilities[light],
+            Choice::Tree(shares, tree) => {
+                // lights in the tree have no share of their own
+                shares.probabilities[0] * tree.probability(light, p)
+                    + shares.probabilities[light + 1]
+            }
+        }
     }
 
     /// Directions toward one light a lane; `choice` is read when there are several.
@@ -67,13 +170,13 @@ impl<E> Lights<E> {
     ) where
         E: Emission<N, T>,
     {
-        match self.only {
-            Some(i) => self.lights[i].sample(p, u, tags, out),
-            None => self.sample_several(p, (choice, u), tags, out),
+        match self.choice {
+            Choice::Only(i) => self.lights[i].sample(p, u, tags, 0..LANES, out),
+            _ => self.sample_several(p, (choice, u), tags, out),
         }
     }
 
-    /// Asks each light that any lane chose, and keeps the lanes that chose it.
+    /// Asks each light for the lanes that chose it.
     #[inline(never)]
     fn sample_several<const N: usize, T: Tag>(
         &self,
@@ -84,31 +187,80 @@ impl<E> Lights<E> {
     ) where
         E: Emission<N, T>,
     {
-        let last = self.cdf.len().saturating_sub(1);
-        let chosen: [usize; LANES] =
-            std::array::from_fn(|k| self.cdf.partition_point(|&c| c <= choice[k]).min(last));
+        let chosen: [(usize, f32); LANES] =
+            std::array::from_fn(|k| self.choose(p.get(k), choice[k]));
         let mut one = LightLanes::EMPTY;
         for k in 0..LANES {
-            // the first lane of each light fills all of its lanes
-            if chosen[..k].contains(&chosen[k]) {
+            let first = chosen[k].0;
+            if chosen[..k].iter().any(|c| c.0 == first) {
                 continue;
             }
-            let Some(light) = self.lights.get(chosen[k]) else {
+            let Some(light) = self.lights.get(first) else {
                 continue;
             };
-            light.sample(p, u, tags, &mut one);
-            for j in k..LANES {
-                if chosen[j] == chosen[k] {
-                    out.wi.set(j, one.wi.get(j));
-                    out.distance[j] = one.distance[j];
-                    out.pdf[j] = one.pdf[j];
-                    out.shared[j] = one.shared[j];
-                    out.prim[j] = one.prim[j];
-                    for c in 0..N {
-                        out.radiance[c][j] = one.radiance[c][j];
-                    }
+            let lanes = chosen.iter().filter(|c| c.0 == first).count();
+            if lanes < FEW {
+                for j in (k..LANES).filter(|&j| chosen[j].0 == first) {
+                    light.sample(p, u, tags, j..j + 1, out);
+                }
+            } else {
+                light.sample(p, u, tags, 0..LANES, &mut one);
+                for j in (k..LANES).filter(|&j| chosen[j].0 == first) {
+                    out.copy(j, &one);
                 }
             }
         }
+        for k in 0..LANES {
+            out.pdf[k] *= chosen[k].1;
+        }
+    }
+}
+
+/// Lanes of one light below which it is asked lane by lane.
+const FEW: usize = 4;
+
+/// The choice among two or more lights.
+fn several<E>(lights: &[Light<E>], powers: &[Option<f64>], selection: LightSelection) -> Choice {
+    let members: Vec<Member> = (lights.iter().zip(powers).enumerate())
+        .filter_map(|(i, (light, power))| {
+            Some(Member {
+                light: i as u32,
+                bound: bound(&light.emitter, (*power)?)?,
+            })
+        })
+        .collect();
+    let tree = match selection {
+        LightSelection::Power => false,
+        LightSelection::Tree => true,
+        LightSelection::Auto => members.len() >= MANY,
+    };
+    // the tree first, then lights that are not in it
+    let mut far = [&[Some(0.0)], powers].concat();
+    for m in &members {
+        let power = far[m.light as usize + 1].take();
+        far[0] = Some(far[0].unwrap_or(0.0) + power.unwrap_or(0.0));
+    }
+    match LightTree::new(members, lights.len()).filter(|_| tree) {
+        Some(tree) => Choice::Tree(Shares::new(&far), tree),
+        None => Choice::Shares(Shares::new(powers)),
+    }
+}
+
+/// What bounds a light; `None` for what is infinitely far.
+fn bound<E>(emitter: &Emitter<E>, power: f64) -> Option<Bound> {
+    // of a lobe of a cosine, and of one all around
+    let (ahead, around) = ((power / PI) as f32, (power / (4.0 * PI)) as f32);
+    match emitter {
+        Emitter::Rect(rect) => Some(Bound::facing(rect.bounds(), rect.z, ahead)),
+        Emitter::Sphere(sphere) => {
+            let r = Vec3::splat(sphere.radius);
+            Some(Bound::all_around(
+                [sphere.center - r, sphere.center + r],
+                around,
+            ))
+        }
+        Emitter::Triangles(light) => Some(light.bound(power)),
+        Emitter::Point(p) => Some(Bound::all_around([*p; 2], around)),
+        Emitter::Directional(_) | Emitter::Constant | Emitter::Image(_) => None,
     }
 }

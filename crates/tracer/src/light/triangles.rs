@@ -1,5 +1,6 @@
 //! Triangles that shine together: one is chosen by area, then a point on it; also the parallelogram, as two of them.
 
+use super::bound::Bound;
 use super::rect::Toward;
 use crate::shape::Triangle;
 use glam::Vec3;
@@ -40,6 +41,16 @@ impl TriangleLight {
     /// Says that all triangles are parts of primitive `prim`.
     pub(crate) fn belong_to(&mut self, prim: u32) {
         self.prims.fill(prim);
+    }
+
+    /// Around all triangles, which send out `power` together.
+    pub(crate) fn bound(&self, power: f64) -> Bound {
+        let all = self.triangles.iter().zip(&self.normals).map(|(t, normal)| {
+            let [a, b, c] = t.corners;
+            Bound::facing([a.min(b).min(c), a.max(b).max(c)], *normal, 1.0)
+        });
+        let all = all.fold(Bound::NONE, |all, one| all.and(&one));
+        all.of_power(power)
     }
 
     /// The total area.

@@ -5,7 +5,8 @@ use glam::{DAffine3, DVec2, DVec3, Vec3};
 use spectrum::Samples;
 use std::f64::consts::PI;
 use tracer::{
-    Camera, Description, Environment, Film, Mesh, Object, Scene, Settings, Shape, render,
+    Camera, Description, Environment, Film, LightSelection, Mesh, Object, Scene, Settings, Shape,
+    render,
 };
 
 /// The same reflectance everywhere: albedo / pi.
@@ -92,6 +93,7 @@ pub(crate) fn empty(camera: Camera, materials: Vec<Box<dyn Material<1>>>) -> Des
         objects: vec![],
         lights: vec![],
         environment: None,
+        selection: LightSelection::Auto,
     }
 }
 

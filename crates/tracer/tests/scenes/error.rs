@@ -173,6 +173,7 @@ fn what_is_left_out_is_said() {
         LeftOut::Triangles,
         LeftOut::Environment,
         LeftOut::LightChoice,
+        LeftOut::LightTree,
         LeftOut::Filter,
     ] {
         assert!(all.contains(&what), "{what}");

@@ -6,8 +6,8 @@ use glam::DVec3;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 use tracer::{
-    Camera, Description, Environment, EnvironmentImage, Film, Hero, HeroEmission, Object,
-    PointLight, Scene, Settings, render,
+    Camera, Description, Environment, EnvironmentImage, Film, Hero, HeroEmission, LightSelection,
+    Object, PointLight, Scene, Settings, render,
 };
 
 /// An albedo that grows along the spectrum.
@@ -61,6 +61,7 @@ fn scene(light: impl Fn(f64) -> f64) -> Scene<HERO, Hero> {
             objects: vec![Object::new(floor(0.0, 5.0), 0)],
             lights: vec![],
             environment: Some(Environment::Constant(emission)),
+            selection: LightSelection::Auto,
         },
     )
     .unwrap()
@@ -178,6 +179,7 @@ fn lights_are_asked_at_the_wavelengths_of_the_path() {
                     },
                 ],
                 environment: Some(Environment::Image(image)),
+                selection: LightSelection::Auto,
             },
         )
         .unwrap();

@@ -14,5 +14,6 @@ mod lights;
 mod malformed;
 mod resampling;
 mod robust;
+mod selection;
 mod stopping;
 mod strategies;
