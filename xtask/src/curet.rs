@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result, bail};
 use brdf::direction;
-use brdf_fit::{FitData, Metric, Pair, Samples, family, fit};
+use brdf_fit::{Estimate, FitData, Metric, Pair, Samples, family, fit};
 use std::path::{Path, PathBuf};
 
 /// The models, compared sample by sample.
@@ -42,17 +42,13 @@ pub(crate) fn run() -> Result<()> {
         let [sigma, kd] = [&fits[1].estimates[0], &fits[1].estimates[1]];
         better += u32::from(fits[1].error < fits[0].error);
         println!(
-            "| {} | {:.4} | {:.4} | {:.4} | {:.3} ({:.3} to {:.3}) | {:.3} ({:.3} to {:.3}) | {:.4} | {:.4} | {:.4} |",
+            "| {} | {:.4} | {:.4} | {:.4} | {} | {} | {:.4} | {:.4} | {:.4} |",
             row[0],
             (light / weight).sqrt(),
             fits[0].error,
             fits[1].error,
-            sigma.value,
-            sigma.ci.0,
-            sigma.ci.1,
-            kd.value,
-            kd.ci.0,
-            kd.ci.1,
+            with_interval(sigma),
+            with_interval(kd),
             fits[2].error,
             fits[3].error,
             fits[4].error
@@ -63,6 +59,15 @@ pub(crate) fn run() -> Result<()> {
         samples.len()
     );
     Ok(())
+}
+
+/// A number with its interval, if it has one.
+fn with_interval(e: &Estimate) -> String {
+    if e.ci.0.is_finite() {
+        format!("{:.3} ({:.3} to {:.3})", e.value, e.ci.0, e.ci.1)
+    } else {
+        format!("{:.3} (bound)", e.value)
+    }
 }
 
 /// The 205 geometries, each of the same weight: theta and phi of the light, then of the viewer, radians.

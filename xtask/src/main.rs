@@ -16,6 +16,7 @@ mod compare;
 mod curet;
 mod fixtures;
 mod interpolation;
+mod model_plots;
 mod ngan;
 mod process;
 mod render_all;
@@ -33,9 +34,10 @@ cargo xtask tidy          the repository's own rules
 cargo xtask fixtures      make data-fixtures/ again; --check: compare only
 cargo xtask codegen       make the generated tables again; --check: compare only
 cargo xtask interpolation cross-validate the interpolants on Cornell files
-cargo xtask curet       rough diffuse models fitted to CUReT
-cargo xtask ngan DIR     our fits against the published ones, on a folder of MERL files
-cargo xtask compare     time to 1 % error beside another renderer
+cargo xtask model-plots   polar plots of all models, into docs/images/models
+cargo xtask curet         rough diffuse models fitted to CUReT
+cargo xtask ngan DIR      our fits against the published ones, on a folder of MERL files
+cargo xtask compare       time to 1 % error beside another renderer
 cargo xtask render-all    all scenes their data allow, with a contact sheet; see --help
 ";
 
@@ -59,6 +61,7 @@ fn run(args: &[String]) -> Result<()> {
         Some("fixtures") => fixtures::run(rest),
         Some("codegen") => codegen::run(rest),
         Some("interpolation") => interpolation::run(rest),
+        Some("model-plots") => model_plots::run(),
         Some("curet") => curet::run(),
         Some("compare") => compare::run(rest),
         Some("ngan") => ngan::run(rest),

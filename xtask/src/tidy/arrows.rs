@@ -80,6 +80,7 @@ pub(super) const ARROWS: &[(&str, &[&str])] = &[
             "brdf-fit",
             "brdf",
             "scene-io",
+            "plot",
             "spectrum",
         ],
     ),

@@ -57,7 +57,8 @@ fn section(m: &ModelInfo) -> String {
         .map(|p| format!("- {}\n", parameter(p)))
         .collect();
     format!(
-        "### `{}`: {}\n\n    f = {}\n\nLaws: {}. Source: [{}].\n\n{}",
+        "### `{0}`: {1}\n\n    f = {2}\n\n![{0} at 0, 30 and 60 degrees](images/models/{0}.svg)\n\n\
+         Laws: {3}. Source: [{4}].\n\n{5}",
         m.name,
         m.title,
         m.formula,

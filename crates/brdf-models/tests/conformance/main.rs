@@ -8,5 +8,6 @@ mod listed;
 mod lobes;
 mod packets;
 mod parsing;
+mod published;
 mod reciprocity;
 mod sampling;
