@@ -111,6 +111,8 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
         "sigma=2,tau=20,mirror=0,n=cu,k=cu,lambda=rgb",
         "sigma=0,tau=1,width=0.05,f0=0.5,ks=0.9,kd=0.1",
         "sigma=0.02,tau=0.05,mirror=0.5,width=0.03,kd=0.2",
+        // the mirror reflection as narrow as it is by default
+        "sigma=0.05,tau=3,n=1.5,kd=0.3",
     ],
 };
 
@@ -217,6 +219,11 @@ impl<const N: usize> Brdf<N> for He<N> {
         let geometry = ratio * ratio * shared.shadow_over_cos2 * FRAC_1_PI;
         let v_xy2 = half.h.x * half.h.x + half.h.y * half.h.y;
         std::array::from_fn(|c| {
+            let diffuse = self.diffuse[c] * FRAC_1_PI;
+            // fits ask for the lobes one a channel: what has no weight needs no series
+            if self.specular[c] <= 0.0 {
+                return diffuse;
+            }
             let k_tau = self.wave_number(c) * self.tau_um;
             let k2_tau2 = k_tau * k_tau;
             let g = self.phase(c, half.h.z, &shared);
@@ -227,7 +234,7 @@ impl<const N: usize> Brdf<N> for He<N> {
             } else {
                 0.0
             };
-            self.diffuse[c] * FRAC_1_PI + self.specular[c] * f[c] * (smooth + rough)
+            diffuse + self.specular[c] * f[c] * (smooth + rough)
         })
     }
 
