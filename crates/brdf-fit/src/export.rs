@@ -1,5 +1,6 @@
 //! A fit as text for other programs, each with the error of what the target really evaluates.
 
+mod abg;
 mod ggx;
 mod glsl;
 mod mitsuba;
@@ -19,7 +20,7 @@ use std::sync::Arc;
 /// A file for another program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Export {
-    /// What it is for: `scene`, `mitsuba`, `pbrt`, `glsl`.
+    /// What it is for: `scene`, `mitsuba`, `pbrt`, `glsl`, `abg`.
     pub target: &'static str,
     /// The name it is written under, without folders.
     pub file: &'static str,
@@ -32,12 +33,16 @@ pub struct Export {
 }
 
 /// Every export of a fit. `ggx` is a GGX fit of the same data, from which the nearest material of renderers without the
-/// best model is made; `samples` (a subset will do) is what the nearest material is chosen on and judged by.
+/// best model is made; `abg` one of the family `abg`, for optics; `samples` (a subset will do) is what the nearest material is chosen on and judged by.
 ///
 /// # Errors
 /// [`FitError::Channels`] unless the fits have three channels.
-pub fn exports(best: &Fit, ggx: &Fit, samples: &Samples) -> Result<Vec<Export>, FitError> {
-    for fit in [best, ggx] {
+pub fn exports(
+    best: &Fit,
+    (ggx, abg): (&Fit, &Fit),
+    samples: &Samples,
+) -> Result<Vec<Export>, FitError> {
+    for fit in [best, ggx, abg] {
         if fit.weights.len() != 3 {
             return Err(FitError::Channels(fit.weights.len()));
         }
@@ -80,6 +85,13 @@ pub fn exports(best: &Fit, ggx: &Fit, samples: &Samples) -> Result<Vec<Export>, 
             text: shader.0,
             model: shader.1,
             error: shader.2,
+        },
+        Export {
+            target: "abg",
+            file: "best.abg.txt",
+            text: abg::text(abg)?,
+            model: "ABg + diffuse".into(),
+            error: abg.error,
         },
     ])
 }

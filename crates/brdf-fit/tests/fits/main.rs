@@ -5,6 +5,8 @@ mod common;
 #[cfg(test)]
 mod conformance;
 #[cfg(test)]
+mod coverage;
+#[cfg(test)]
 mod exports;
 #[cfg(test)]
 mod known;

@@ -17,7 +17,7 @@ use std::path::PathBuf;
 #[command(
     after_help = "Metrics: ngan (root mean square of f cos), log, cuberoot, relvar (best proposal); docs/fits.md has the formulas.
 For one file DIR gets fit.json, polar.svg, spheres.png and the best fit as best.ron, best.xml (Mitsuba 3), best.pbrt
-(pbrt-v4) and best.glsl. For a folder DIR gets one NAME.json a file; files done before are not fitted again, so that
+(pbrt-v4), best.glsl and best.abg.txt (A, B, g for optics). For a folder DIR gets one NAME.json a file; files done before are not fitted again, so that
 an interrupted run goes on where it was.
 Examples:
   gonio fit brass.binary -o brass-fit

@@ -43,6 +43,7 @@ fn one_file_gets_a_table_pictures_and_exports() {
         "best.xml",
         "best.pbrt",
         "best.glsl",
+        "best.abg.txt",
         "polar.svg",
     ] {
         assert!(bench.path("out").join(name).is_file(), "{name}");

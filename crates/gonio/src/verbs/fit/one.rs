@@ -154,19 +154,20 @@ pub(super) fn write(
         return Ok(());
     };
     let few = fitted.data.samples().subset(args.metric, EXPORT_PAIRS);
-    let ggx = match fitted
-        .fits
-        .iter()
-        .find(|f| f.name == "ggx" && f.shape.len() == 2)
-    {
-        Some(ggx) => ggx.clone(),
-        None => brdf_fit::fit(
-            &*brdf_fit::family("ggx", 1)?,
-            &FitData::new(few.clone(), args.metric),
-        )?,
+    // both families have two shapes a lobe
+    let one_lobe = |name: &str| -> Result<Fit> {
+        let mut done = fitted.fits.iter();
+        match done.find(|f| f.name == name && f.shape.len() == 2) {
+            Some(fit) => Ok(fit.clone()),
+            None => {
+                let data = FitData::new(few.clone(), args.metric);
+                Ok(brdf_fit::fit(&*brdf_fit::family(name, 1)?, &data)?)
+            }
+        }
     };
+    let (ggx, abg) = (one_lobe("ggx")?, one_lobe("abg")?);
     let mut written = Vec::new();
-    for export in exports(best, &ggx, &few)? {
+    for export in exports(best, (&ggx, &abg), &few)? {
         let path = folder.join(export.file);
         scene_io::write::bytes(&path, export.text.as_bytes())?;
         written.push(path);
