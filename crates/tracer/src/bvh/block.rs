@@ -43,8 +43,17 @@ impl Block {
     /// Distances of the hits with t > 0, infinity for none, less than 0 where [`Self::distance`] has to be asked.
     #[inline(always)]
     pub(super) fn hits(&self, lanes: Lanes8, ray: &ShearedRay) -> [f32; WIDTH] {
-        let corner = |c: &'_ [[f32; WIDTH]; 3]| ray.axes.map(|axis| c[axis]);
-        lanes.meet(ray, self.corners.each_ref().map(corner))
+        // a map over an array, unlike what stands here, is not compiled for the instruction set of its caller
+        let [x, y, z] = ray.axes;
+        let [a, b, c] = &self.corners;
+        lanes.meet(
+            ray,
+            [
+                [&a[x], &a[y], &a[z]],
+                [&b[x], &b[y], &b[z]],
+                [&c[x], &c[y], &c[z]],
+            ],
+        )
     }
 
     /// The distance that lane `k` of [`Self::hits`] stands for; in double precision where that one could not decide.

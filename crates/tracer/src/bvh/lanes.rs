@@ -68,13 +68,24 @@ impl Lanes8 {
 
     /// [`meet`] for eight triangles: corner, coordinate, lane.
     #[inline(always)]
-    pub(super) fn meet(self, ray: &ShearedRay, corners: [[[f32; 8]; 3]; 3]) -> [f32; 8] {
+    pub(super) fn meet(self, ray: &ShearedRay, corners: [[&[f32; 8]; 3]; 3]) -> [f32; 8] {
+        let [a, b, c] = corners;
         #[cfg(target_arch = "x86_64")]
         if let Some(avx) = self.avx {
-            let eight = |x| Eight(avx, pulp::cast(x));
-            return pulp::cast(meet(ray, corners.map(|c| c.map(eight))).1);
+            let eight = |x: &[f32; 8]| Eight(avx, pulp::cast(*x));
+            let a = [eight(a[0]), eight(a[1]), eight(a[2])];
+            let b = [eight(b[0]), eight(b[1]), eight(b[2])];
+            let c = [eight(c[0]), eight(c[1]), eight(c[2])];
+            return pulp::cast(meet(ray, [a, b, c]).1);
         }
-        std::array::from_fn(|k| meet(ray, corners.map(|c| c.map(|x| x[k]))))
+        let mut t = [0.0; 8];
+        for k in 0..8 {
+            let a = [a[0][k], a[1][k], a[2][k]];
+            let b = [b[0][k], b[1][k], b[2][k]];
+            let c = [c[0][k], c[1][k], c[2][k]];
+            t[k] = meet(ray, [a, b, c]);
+        }
+        t
     }
 
     /// A bit for each number below `limit`.
@@ -186,7 +197,8 @@ mod tests {
             let x = if i % 3 == 0 { 0.0 } else { at(100) };
             let d = Vec3::new(x, at(101), at(102)).normalize_or(Vec3::Y);
             let ray = ShearedRay::new(Vec3::new(x, at(103), at(104)), d);
-            let [a, b] = [plain, Lanes8::detect()].map(|lanes| lanes.meet(&ray, corners));
+            let [a, b] = [plain, Lanes8::detect()]
+                .map(|lanes| lanes.meet(&ray, corners.each_ref().map(|c| c.each_ref())));
             assert_eq!(a.map(f32::to_bits), b.map(f32::to_bits), "ray {i}");
             met += a.iter().filter(|t| t.is_finite()).count();
         }

@@ -46,7 +46,7 @@ impl ShearedRay {
         let inverse = 1.0 / d[axes[2]];
         Self {
             axes,
-            o: axes.map(|axis| o[axis]),
+            o: [o[axes[0]], o[axes[1]], o[axes[2]]],
             slope: [d[axes[0]] * inverse, d[axes[1]] * inverse],
             inverse,
         }
@@ -57,8 +57,11 @@ impl ShearedRay {
     pub(crate) fn shear<T: Number>(&self, corner: [T; 3]) -> [T; 3] {
         let splat = |x: f32| corner[0].splat(x);
         let z = corner[2] - splat(self.o[2]);
-        let across = |i: usize| corner[i] - splat(self.o[i]) - splat(self.slope[i]) * z;
-        [across(0), across(1), z]
+        [
+            corner[0] - splat(self.o[0]) - splat(self.slope[0]) * z,
+            corner[1] - splat(self.o[1]) - splat(self.slope[1]) * z,
+            z,
+        ]
     }
 }
 
@@ -109,7 +112,11 @@ impl Number for f32 {
 /// infinity for none and for corners that are NaN; -1 where single precision can't decide: [`Triangle::distance`] can.
 #[inline(always)]
 pub(crate) fn meet<T: Number>(ray: &ShearedRay, corners: [[T; 3]; 3]) -> T {
-    let [a, b, c] = corners.map(|corner| ray.shear(corner));
+    let [a, b, c] = [
+        ray.shear(corners[0]),
+        ray.shear(corners[1]),
+        ray.shear(corners[2]),
+    ];
     let splat = |x: f32| a[0].splat(x);
     let w = [edge(b, c), edge(c, a), edge(a, b)];
     let low = w[0].lesser(w[1]).lesser(w[2]);
