@@ -2,6 +2,7 @@
 
 mod arrows;
 mod conformance;
+mod extremes;
 mod files;
 mod fixtures;
 mod lints;
@@ -18,6 +19,7 @@ const RULES: &[Rule] = &[
     ("reference keys", references::complaints),
     ("fixture manifest", fixtures::complaints),
     ("conformance lists", conformance::complaints),
+    ("stress cases", extremes::complaints),
     ("file heads and sizes", files::complaints),
 ];
 

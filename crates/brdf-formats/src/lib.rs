@@ -26,6 +26,7 @@ mod pbrt_text;
 mod rgl;
 mod rows;
 mod tensor;
+mod tensor_write;
 
 pub use astm::AstmFile;
 pub use channels::Channels;
@@ -37,3 +38,4 @@ pub use merl_stream::MerlStream;
 pub use pbrt_text::PbrtTextFile;
 pub use rgl::{RglArray, RglFile, RglView};
 pub use tensor::{Dtype, Tensor, TensorFile};
+pub use tensor_write::{TensorField, write_tensor};

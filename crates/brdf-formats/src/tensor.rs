@@ -66,21 +66,30 @@ impl Dtype {
         }
     }
 
+    /// By code in the file, from 1 on.
+    const CODES: [Self; 11] = [
+        Self::U8,
+        Self::I8,
+        Self::U16,
+        Self::I16,
+        Self::U32,
+        Self::I32,
+        Self::U64,
+        Self::I64,
+        Self::F16,
+        Self::F32,
+        Self::F64,
+    ];
+
     fn from_code(code: u8) -> Option<Self> {
-        const CODES: [Dtype; 11] = [
-            Dtype::U8,
-            Dtype::I8,
-            Dtype::U16,
-            Dtype::I16,
-            Dtype::U32,
-            Dtype::I32,
-            Dtype::U64,
-            Dtype::I64,
-            Dtype::F16,
-            Dtype::F32,
-            Dtype::F64,
-        ];
-        CODES.get(usize::from(code.checked_sub(1)?)).copied()
+        let at = usize::from(code.checked_sub(1)?);
+        Self::CODES.get(at).copied()
+    }
+
+    /// What stands for it in a file.
+    pub(crate) fn code(self) -> u8 {
+        let mut codes = (1..).zip(Self::CODES);
+        codes.find(|(_, d)| *d == self).map_or(0, |(code, _)| code)
     }
 }
 

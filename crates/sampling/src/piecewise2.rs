@@ -19,6 +19,8 @@ pub struct Piecewise2 {
     /// For each row, the integral of `values` up to each cell border along x; row-major, cells + 1 a row.
     sums: Vec<f64>,
     marginal: Piecewise1,
+    /// Of the values as given.
+    integral: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,6 +56,8 @@ impl Piecewise2 {
                 found: values.len(),
             });
         }
+        let unit = power_of_two(values);
+        let values: Vec<f64> = values.iter().map(|v| v / unit).collect();
         let totals: Vec<f64> = values.chunks(width).map(|row| total(shape, row)).collect();
         let marginal = match shape {
             Shape::Constant => Piecewise1::constant(&totals)?,
@@ -71,6 +75,7 @@ impl Piecewise2 {
             values,
             sums,
             marginal,
+            integral: integral * unit,
         })
     }
 
@@ -87,7 +92,7 @@ impl Piecewise2 {
     /// Integral over the unit square of the values as given, before they were normalised.
     #[must_use]
     pub fn integral(&self) -> f64 {
-        self.marginal.integral()
+        self.integral
     }
 
     /// Bytes the tables hold.
@@ -206,6 +211,18 @@ impl Row<'_> {
             Shape::Constant => (left, left),
             Shape::Bilinear => (left, self.mix(self.values.map(|v| v[cell + 1]))),
         }
+    }
+}
+
+/// The power of two next to the largest value: dividing by it rounds nothing, and sums of values that are all close to
+/// the ends of f64 neither lose their digits nor overflow. 1 for values that are all 0.
+fn power_of_two(values: &[f64]) -> f64 {
+    let most = values.iter().fold(0.0_f64, |m, &v| m.max(v));
+    if most > 0.0 {
+        // the exponents of f64, but for those whose inverse it has not
+        most.log2().floor().clamp(-1022.0, 1022.0).exp2()
+    } else {
+        1.0
     }
 }
 

@@ -2,22 +2,26 @@
 
 use crate::tally::Tally;
 use rayon::prelude::*;
+use std::time::Instant;
 
 /// How fine the grids are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effort {
     /// A part of every grid, ends included: what every test run affords.
     Quick,
+    /// Between the two, by the geometric mean: what a slow test affords without optimisation.
+    Finer,
     /// All of it.
     Full,
 }
 
 impl Effort {
-    /// `full` of everything, or `quick` where there is no time.
+    /// `full` of everything, or `quick` where there is no time. Counts and steps through lists alike.
     #[must_use]
     pub const fn pick(self, quick: usize, full: usize) -> usize {
         match self {
             Self::Quick => quick,
+            Self::Finer => (quick * full).isqrt(),
             Self::Full => full,
         }
     }
@@ -54,6 +58,8 @@ pub struct Row {
     pub bound: f64,
     /// Why that much.
     pub reason: &'static str,
+    /// How long it took.
+    pub seconds: f64,
 }
 
 impl Row {
@@ -85,12 +91,14 @@ impl Case {
     #[must_use]
     pub fn row(&self, effort: Effort) -> Row {
         let mut tally = Tally::default();
+        let start = Instant::now();
         (self.run)(effort, &mut tally);
         Row {
             case: self.name.clone(),
             tally,
             bound: self.bound,
             reason: self.reason,
+            seconds: start.elapsed().as_secs_f64(),
         }
     }
 }

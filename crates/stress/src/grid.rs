@@ -122,3 +122,53 @@ pub(crate) fn settings(info: &'static ModelInfo) -> Vec<ParsedModel<3>> {
 pub(crate) fn models() -> impl Iterator<Item = &'static ModelInfo> {
     MODELS.iter()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{models, pairs, settings, viewers};
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    /// All values of a parameter on the grid.
+    fn on_the_grid(model: &str, parameter: &str) -> Vec<f64> {
+        let info = models().find(|m| m.name == model).unwrap();
+        let all = settings(info).into_iter();
+        all.flat_map(|s| s.values.get(parameter).to_vec()).collect()
+    }
+
+    #[test]
+    fn what_was_asked_for_is_on_it() {
+        for (model, parameter) in [
+            ("ggx", "alpha_x"),
+            ("ward", "alpha_y"),
+            ("cook-torrance", "m"),
+        ] {
+            let all = on_the_grid(model, parameter);
+            assert!(
+                all.contains(&1e-4) && all.contains(&1.0),
+                "{model}: {all:?}"
+            );
+        }
+        for model in ["phong", "lewis", "blinn-phong", "lafortune"] {
+            assert!(on_the_grid(model, "n").contains(&1e6), "{model}");
+        }
+        // g = (4 pi sigma/lambda)^2 of He toward the normal
+        let g = on_the_grid("he", "sigma").into_iter();
+        let g: Vec<f64> = g.map(|s| (4.0 * PI * s / 0.55).powi(2)).collect();
+        let within = |low: f64, high: f64| g.iter().any(|g| (low..high).contains(g));
+        assert!(within(1e-9, 1e-6) && within(1e6, 1e9), "{g:?}");
+        assert!(
+            (-6..6)
+                .step_by(2)
+                .all(|k| within(10_f64.powi(k), 10_f64.powi(k + 2))),
+            "{g:?}"
+        );
+        let lowest = viewers().iter().fold(1.0_f64, |z, w| z.min(w.z));
+        assert!(
+            (lowest / (FRAC_PI_2 - 1e-7).cos() - 1.0).abs() < 1e-6,
+            "{lowest:e}"
+        );
+        for what in ["wi = wo", "wi = -wo", "h at the pole", "wi at the pole"] {
+            assert!(pairs(1).iter().any(|(n, _)| n.what == what), "{what}");
+        }
+    }
+}

@@ -5,7 +5,8 @@
 //! to be without a red line. References are f64 for what runs in f32 lanes, and 160 bits for what runs in f64.
 //! Registries are iterated: a new model is stressed by being registered.
 //!
-//! Not here: statistics (the conformance tests of each crate) and time (benches).
+//! [`timings`] measures what denormal numbers cost. Not here: statistics (the conformance tests of each crate) and any other
+//! time (benches).
 
 mod case;
 mod cases;
@@ -14,7 +15,9 @@ mod real;
 mod reference;
 mod scenes;
 mod tally;
+mod timing;
 
 pub use case::{Case, Effort, Row, run};
 pub use cases::cases;
 pub use tally::Tally;
+pub use timing::{Timing, timings};

@@ -63,6 +63,12 @@ impl Tally {
         }
     }
 
+    /// Checks that a result of either sign is finite.
+    pub fn number(&mut self, value: f64, place: impl Fn() -> String) {
+        self.count += 1;
+        self.finite(value, &place);
+    }
+
     /// Counts what is not finite, and subnormal numbers of either precision.
     fn finite(&mut self, value: f64, place: &impl Fn() -> String) -> bool {
         self.denormal += u64::from(value.is_subnormal());

@@ -74,7 +74,10 @@ pub(crate) fn forward(v: &Views, scale2: Scale2, points: &mut Points) -> Lanes3 
         let sin_half = 2.0 * t * cos_quarter;
         let sin_phi = 2.0 * sin_half * (1.0 - 2.0 * t * t);
         let cos_phi = 1.0 - 2.0 * sin_half * sin_half;
-        let wo_h = v.sin_o[k] * s * cos_phi + v.cos_o[k] * c;
+        // wi = 2 (wo.h) h - wo is above the horizon, so wo.h is at least this; seen along the surface rounding takes
+        // half vectors of narrow lobes below
+        let least = 0.5 * v.cos_o[k] / c.max(v.cos_o[k]);
+        let wo_h = (v.sin_o[k] * s * cos_phi + v.cos_o[k] * c).max(least);
         let x = 2.0 * wo_h * s * cos_phi - v.sin_o[k];
         let side = 2.0 * wo_h * s * sin_phi;
         wi.x[k] = x * v.cos_phi[k] - side * v.sin_phi[k];

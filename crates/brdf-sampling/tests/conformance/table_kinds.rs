@@ -2,7 +2,7 @@
 
 use crate::targets::Case;
 use brdf::{Brdf, Measured, Status};
-use brdf_formats::RglFile;
+use brdf_formats::{Dtype, RglFile, TensorField, write_tensor};
 use brdf_measure::{Instrument, measure_astm, measure_merl};
 use brdf_models::parse_model;
 use brdf_table::scattered::Domain;
@@ -211,59 +211,21 @@ pub(crate) fn rgl_table() -> Arc<RglTable> {
         .map(|n| (2.0 * (-6.0 * at(n % SIDE).powi(4)).exp()) as f32)
         .collect();
     let (n, t) = (SIDE as u64, INCIDENCES as u64);
-    let bytes = tensor(&[
-        Field::floats("phi_i", &[1], &[0.0]),
-        Field::floats("theta_i", &[t], &thetas),
-        Field::floats("sigma", &[2, 2], &[1.0, 0.2, 1.0, 0.2]),
-        Field::floats("ndf", &[n, n], &ndf),
-        Field::floats("vndf", &[1, t, n, n], &vndf),
-        Field::floats("luminance", &[1, t, n, n], &luminance),
-        Field::floats("rgb", &[1, t, 3, n, n], &rgb),
-        Field {
+    let bytes = write_tensor(&[
+        TensorField::floats("phi_i", &[1], &[0.0]),
+        TensorField::floats("theta_i", &[t], &thetas),
+        TensorField::floats("sigma", &[2, 2], &[1.0, 0.2, 1.0, 0.2]),
+        TensorField::floats("ndf", &[n, n], &ndf),
+        TensorField::floats("vndf", &[1, t, n, n], &vndf),
+        TensorField::floats("luminance", &[1, t, n, n], &luminance),
+        TensorField::floats("rgb", &[1, t, 3, n, n], &rgb),
+        TensorField {
             name: "jacobian",
-            dtype: 1,
-            shape: vec![1],
+            dtype: Dtype::U8,
+            shape: &[1],
             data: vec![1],
         },
     ]);
     let file = RglFile::from_bytes(bytes).unwrap();
     Arc::new(RglTable::new(&file).unwrap())
-}
-
-/// A field of a tensor file.
-struct Field {
-    name: &'static str,
-    dtype: u8,
-    shape: Vec<u64>,
-    data: Vec<u8>,
-}
-
-impl Field {
-    fn floats(name: &'static str, shape: &[u64], data: &[f32]) -> Self {
-        Self {
-            name,
-            dtype: 10,
-            shape: shape.to_vec(),
-            data: data.iter().flat_map(|v| v.to_le_bytes()).collect(),
-        }
-    }
-}
-
-/// The bytes of a tensor file: magic, version 1.0, the fields' heads, then their data.
-fn tensor(fields: &[Field]) -> Vec<u8> {
-    let head = |f: &Field| 13 + f.name.len() + 8 * f.shape.len();
-    let mut offset = 18 + fields.iter().map(head).sum::<usize>();
-    let mut bytes = b"tensor_file\0\x01\0".to_vec();
-    bytes.extend((fields.len() as u32).to_le_bytes());
-    for field in fields {
-        bytes.extend((field.name.len() as u16).to_le_bytes());
-        bytes.extend(field.name.as_bytes());
-        bytes.extend((field.shape.len() as u16).to_le_bytes());
-        bytes.push(field.dtype);
-        bytes.extend((offset as u64).to_le_bytes());
-        bytes.extend(field.shape.iter().flat_map(|n| n.to_le_bytes()));
-        offset += field.data.len();
-    }
-    bytes.extend(fields.iter().flat_map(|f| &f.data));
-    bytes
 }

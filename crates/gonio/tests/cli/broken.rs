@@ -377,6 +377,26 @@ fn text_files() {
 }
 
 #[test]
+fn stress() {
+    let bench = Bench::new();
+    let run = bench.run("stress --quick --only angles");
+    assert!(
+        run.code == 0 && run.out.contains("1 rows, 0 red"),
+        "{}{}",
+        run.out,
+        run.err
+    );
+    check(
+        &bench,
+        &[
+            ("stress --only nonsense", 1, &["--only nonsense: no row"]),
+            ("stress --timing --quick", 2, &["--timing", "--quick"]),
+            ("stress --markdown --json", 2, &["--markdown", "--json"]),
+        ],
+    );
+}
+
+#[test]
 fn tensor_files() {
     let bench = Bench::new();
     let data = 1.0_f32.to_le_bytes().repeat(6);

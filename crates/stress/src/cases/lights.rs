@@ -51,12 +51,7 @@ pub(super) fn cases() -> Vec<Case> {
                 each_angle(t, |deg, t| {
                     let w = deg.to_radians().tan();
                     let corners = [[-w, -w], [w, -w], [-w, w]].map(|[x, y]| DVec3::new(x, y, 0.0));
-                    let mesh = Mesh {
-                        positions: corners.map(|c| c.as_vec3()).to_vec(),
-                        triangles: vec![[0, 1, 2]],
-                        normals: None,
-                    };
-                    let scene = seen(Shape::Mesh(mesh), 1.0);
+                    let scene = seen(Shape::Mesh(triangle(w)), 1.0);
                     let exact = triangle_angle(corners, DVec3::Z);
                     solid_angle(scene, DVec3::Z, exact, 256, t, &format!("{deg} deg"));
                 });
@@ -81,16 +76,15 @@ pub(super) fn cases() -> Vec<Case> {
         Case::new("light/Triangles/samples", 2e-3, SAMPLES, |_, t| {
             each_angle(t, |deg, t| {
                 let w = deg.to_radians().tan();
-                let mesh = Mesh {
-                    positions: [[-w, -w], [w, -w], [-w, w]]
-                        .map(|[x, y]| DVec3::new(x, y, 0.0).as_vec3())
-                        .to_vec(),
-                    triangles: vec![[0, 1, 2]],
-                    normals: None,
-                };
-                samples(seen(Shape::Mesh(mesh), 1.0), DVec3::Z, t, deg);
+                samples(seen(Shape::Mesh(triangle(w)), 1.0), DVec3::Z, t, deg);
             });
         }),
+        Case::new(
+            "light/Sphere, Rect and Triangles/scenes of 1e-6 to 1e6",
+            2e-3,
+            "the density is that of the scene of size 1; shifted by 1000 sizes, coordinates keep 6e-8 of a thousand",
+            |_, t| sizes(t),
+        ),
         Case::new(
             "light/Constant and Image/samples",
             2e-3,
@@ -132,6 +126,17 @@ fn rect(half_width: f64, half_height: f64) -> Shape {
         corner: DVec3::new(-half_width, -half_height, 0.0),
         edge_u: DVec3::new(2.0 * half_width, 0.0, 0.0),
         edge_v: DVec3::new(0.0, 2.0 * half_height, 0.0),
+    }
+}
+
+/// Half of the square of half width `w` about the origin, facing z.
+fn triangle(w: f64) -> Mesh {
+    Mesh {
+        positions: [[-w, -w], [w, -w], [-w, w]]
+            .map(|[x, y]| DVec3::new(x, y, 0.0).as_vec3())
+            .to_vec(),
+        triangles: vec![[0, 1, 2]],
+        normals: None,
     }
 }
 
@@ -210,6 +215,40 @@ fn samples(scene: Option<Scene<1>>, from: DVec3, tally: &mut Tally, deg: f64) {
             tally.value(f64::from(s.pdf), f64::from(pdf), 0.0, || {
                 format!("pdf again, {}", place())
             });
+        }
+    }
+}
+
+fn sizes(tally: &mut Tally) {
+    let shapes = [
+        ("Sphere", unit_sphere()),
+        ("Rect", rect(0.3, 0.2)),
+        ("Triangles", Shape::Mesh(triangle(0.3))),
+    ];
+    for (name, shape) in shapes {
+        let density = |scale: f64, shift: f64, u: [f32; 2]| {
+            let centre = CENTRE * scale + DVec3::new(1.0, -0.37, 0.81) * shift;
+            let scene = of(shining(placed(shape.clone(), scale, centre), 1.0))?;
+            let p = centre + DVec3::new(1.3, -0.4, 2.0) * scale;
+            scene
+                .toward_light(0, p.as_vec3(), u)
+                .map(|s| f64::from(s.pdf))
+        };
+        for u in [[0.2, 0.7], [0.5, 0.5], [0.9, 0.1]] {
+            let exact = density(1.0, 0.0, u).unwrap_or(f64::NAN);
+            for (scale, shift) in [
+                (1e-6, 0.0),
+                (1e-3, 0.0),
+                (1e3, 0.0),
+                (1e6, 0.0),
+                (1.0, 1e3),
+                (1e3, 1e6),
+            ] {
+                let value = density(scale, shift, u).unwrap_or(f64::NAN);
+                tally.value(value, exact, 0.0, || {
+                    format!("{name}, scale {scale:e}, shift {shift:e}, u {u:?}")
+                });
+            }
         }
     }
 }

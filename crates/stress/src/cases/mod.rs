@@ -4,14 +4,18 @@ mod angles;
 mod colour;
 mod fresnel;
 mod lights;
+mod maps;
 mod models;
 mod pictures;
 mod quantiles;
 mod rgl;
 mod samplers;
 mod shapes;
+mod switches;
 mod tables;
 mod warps;
+
+pub(crate) use pictures::SETTINGS;
 
 use crate::case::Case;
 
@@ -25,11 +29,13 @@ pub fn cases() -> Vec<Case> {
         tables::cases(),
         samplers::cases(),
         warps::cases(),
+        maps::cases(),
         lights::cases(),
         shapes::cases(),
         pictures::cases(),
         colour::cases(),
         quantiles::cases(),
+        switches::cases(),
     ]
     .into_iter()
     .flatten()

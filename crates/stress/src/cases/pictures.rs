@@ -35,7 +35,8 @@ pub(super) fn cases() -> Vec<Case> {
     ]
 }
 
-const SETTINGS: Settings = Settings {
+/// What all pictures here are rendered with.
+pub(crate) const SETTINGS: Settings = Settings {
     spp: 16,
     seed: 1,
     max_depth: 4,

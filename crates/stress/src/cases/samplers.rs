@@ -2,7 +2,7 @@
 
 use super::tables::{Content, KINDS};
 use crate::case::{Case, Effort};
-use crate::grid::viewers;
+use crate::grid::{in_f32, pairs, viewers};
 use crate::tally::Tally;
 use brdf::{DirectionSampler, LANES, Lanes3, Measured, Symmetry};
 use brdf_models::parse_model;
@@ -18,20 +18,31 @@ type Boxed = Box<dyn DirectionSampler>;
 /// A sampler, by the type's name; a test compares the names with the source.
 pub(super) struct Kind {
     pub(super) name: &'static str,
+    /// How well the density of a sample must agree with that of its direction.
+    bound: f64,
+    reason: &'static str,
     build: fn(&SharedTarget) -> Boxed,
 }
+
+const F64: &str = "the density of a sample is that of its direction; u to 1 - 2^-53";
 
 pub(super) const SAMPLERS: &[Kind] = &[
     Kind {
         name: "Uniform",
+        bound: 1e-9,
+        reason: F64,
         build: |_| Box::new(Uniform),
     },
     Kind {
         name: "Cosine",
+        bound: 1e-9,
+        reason: F64,
         build: |_| Box::new(Cosine),
     },
     Kind {
         name: "Hvt",
+        bound: 1e-6,
+        reason: "the table is interpolated in f32: sampling mixes four nodes by rows, evaluation by columns, eight roundings of 6e-8",
         build: |f| {
             Box::new(Hvt::new(
                 Target::new(&|i, o| f(i, o)),
@@ -41,6 +52,8 @@ pub(super) const SAMPLERS: &[Kind] = &[
     },
     Kind {
         name: "Inversion",
+        bound: 1e-9,
+        reason: F64,
         build: |f| {
             let options = InversionOptions {
                 n_theta: 12,
@@ -54,10 +67,14 @@ pub(super) const SAMPLERS: &[Kind] = &[
     },
     Kind {
         name: "Dictionary",
+        bound: 1e-9,
+        reason: F64,
         build: |f| Box::new(Dictionary::new(Target::new(&|i, o| f(i, o)))),
     },
     Kind {
         name: "Rejection",
+        bound: 1e-9,
+        reason: F64,
         build: |f| {
             let options = RejectionOptions {
                 proposal: Proposal::Cosine,
@@ -77,8 +94,8 @@ pub(super) fn cases() -> Vec<Case> {
             [
                 Case::new(
                     format!("sampler/{}/ends of u", kind.name),
-                    1e-9,
-                    "the density of a sample is that of its direction; u to 1 - 2^-53",
+                    kind.bound,
+                    kind.reason,
                     move |effort, tally| each_target(effort, |n, f| scalars(&*(kind.build)(f), n, tally)),
                 ),
                 Case::new(
@@ -86,6 +103,12 @@ pub(super) fn cases() -> Vec<Case> {
                     2e-2,
                     "f32 directions in a chart that spreads 1e-4 rad over several nodes; u to 1 - 2^-24",
                     move |effort, tally| each_target(effort, |n, f| lanes(&*(kind.build)(f), n, tally)),
+                ),
+                Case::new(
+                    format!("sampler/{}/density anywhere", kind.name),
+                    0.0,
+                    "finite and not negative in both precisions: opposite, equal, grazing, mirrored directions",
+                    move |effort, tally| each_target(effort, |n, f| anywhere(&*(kind.build)(f), n, effort, tally)),
                 ),
             ]
         })
@@ -190,6 +213,22 @@ fn scalars(sampler: &dyn DirectionSampler, target: &str, tally: &mut Tally) {
             });
             let below = if s.wi.z > 0.0 { 0.0 } else { 1.0 };
             tally.error(below, || format!("below the horizon, {}", place()));
+        }
+    }
+}
+
+fn anywhere(sampler: &dyn DirectionSampler, target: &str, effort: Effort, tally: &mut Tally) {
+    for chunk in pairs(effort.pick(29, 3)).chunks(LANES) {
+        let (mut wi, mut wo) = (Lanes3::ZERO, Lanes3::ZERO);
+        for (k, (i, o)) in chunk.iter().enumerate() {
+            wi.set(k, in_f32(i.w));
+            wo.set(k, in_f32(*o));
+        }
+        let pdf = sampler.pdf_lanes(&wi, &wo);
+        for (k, (i, o)) in chunk.iter().enumerate() {
+            let place = || format!("{target}, {}, wi {}, wo {o}", i.what, i.w);
+            tally.sound(sampler.pdf(i.w, *o), place);
+            tally.sound(f64::from(pdf[k]), || format!("f32, {}", place()));
         }
     }
 }

@@ -4,6 +4,8 @@ use crate::case::Case;
 use crate::grid::{in_f32, pairs};
 use crate::tally::Tally;
 use brdf::{Brdf, HalfDiff, LANES, Lanes3, Measured, Status};
+use brdf_models::parse_model_n;
+use brdf_sampling::{BakedHvt, Hvt, Preset, Target};
 use brdf_table::{
     Gridded, GriddedN, HalfDiffTable, Interpolation, KdNearest, LayerMode, LayeredTable, PhiDomain,
     SampleCloud, ThinPlate,
@@ -100,6 +102,12 @@ pub(super) fn cases() -> Vec<Case> {
         })
         .collect();
     all.push(Case::new(
+        "table/BakedHvt/finite",
+        0.0,
+        "a density over a cosine: finite and not negative for black, a spike and a lobe of 1e-4",
+        |effort, tally| baked(effort.pick(29, 3), tally),
+    ));
+    all.push(Case::new(
         "table/GriddedN/f32 lanes at a spike",
         1e-3,
         "f32 angles to 2e-7, between nodes a few hundredths apart, where the value falls from 1e6 to 0",
@@ -176,6 +184,29 @@ fn bounded(kind: &Kind, content: Content, step: usize, tally: &mut Tally) {
                 // an RGL value is multiplied by the file's own normal distribution
                 Content::Spike if kind.name == "RglTable" => {}
                 Content::Spike => tally.error((f - SPIKE).max(0.0) / SPIKE, place),
+            }
+        }
+    }
+}
+
+fn baked(step: usize, tally: &mut Tally) {
+    for text in [
+        "lambert:kd=0",
+        "ggx:alpha=0.0001,f0=1",
+        "phong:n=1000000,ks=1,kd=0",
+    ] {
+        let Ok(model) = parse_model_n::<1>(text) else {
+            tally.error(f64::INFINITY, || text.into());
+            continue;
+        };
+        let target = |i, o| model.built.brdf.eval(i, o)[0];
+        let hvt = Hvt::new(Target::new(&target), Preset::Tiny.options());
+        let baked = BakedHvt::<1>::new(&model.built.brdf, hvt);
+        for (named, wo) in pairs(step) {
+            for f in baked.eval(named.w, wo) {
+                tally.sound(f, || {
+                    format!("{text}, {}, wi {}, wo {wo}", named.what, named.w)
+                });
             }
         }
     }

@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3};
 use sampling::{AliasTable, Piecewise1, Piecewise2, warp};
 
 /// Where distribution functions end: the largest f32 and f64 below 1, and the inside.
-const US: [f64; 8] = [
+pub(super) const US: [f64; 8] = [
     0.0,
     1e-300,
     1e-12,
@@ -151,7 +151,7 @@ fn follow((_, map, pdf, inverse, exact, widths): &Lobe, tally: &mut Tally) {
 }
 
 /// Weights that are hard on a distribution function.
-fn weights(n: usize) -> Vec<(&'static str, Vec<f64>)> {
+pub(super) fn weights(n: usize) -> Vec<(&'static str, Vec<f64>)> {
     let spike = |k: usize, base: f64| {
         let mut all = vec![base; n];
         all[k] = 1.0;

@@ -1,5 +1,6 @@
-//! Cook-Torrance [CookTorrance1982] and GGX [Walter2007], F D G / (4 ci co).
+//! Cook-Torrance [CookTorrance1982], also with Smith's masking, and GGX [Walter2007], F D G / (4 ci co).
 
+use super::he::smith;
 use super::{Args, Vector};
 use crate::real::Real;
 
@@ -24,18 +25,19 @@ fn beckmann(a: &Args<'_>, m: f64) -> Real {
     (-tan2 / Real::new(m).sqr()).exp() / (Real::pi() * Real::new(m).sqr() * z2.sqr())
 }
 
-/// One flank of a V-shaped groove: min(1, 2 hz c / h.w).
-fn groove(a: &Args<'_>, c: &Real) -> Real {
-    (2.0 * a.hz() * c / a.cos_d()).min(&Real::new(1.0))
-}
-
 pub(super) fn cook_torrance(a: &Args<'_>) -> Real {
-    let g = groove(a, &a.wi.z).min(&groove(a, &a.wo.z));
+    let g = a.groove(&a.wi.z).min(&a.groove(&a.wo.z));
     specular(a, beckmann(a, a.scalar("m")) * g)
 }
 
+pub(super) fn cook_torrance_smith(a: &Args<'_>) -> Real {
+    let m = a.scalar("m");
+    let g1 = |w| smith(w, &Real::new(m)).g1;
+    specular(a, beckmann(a, m) * g1(&a.wi) * g1(&a.wo))
+}
+
 pub(super) fn cook_torrance_pdf(a: &Args<'_>) -> Real {
-    let lobe = groove(a, &a.wo.z) * beckmann(a, a.scalar("m")) / (4.0 * &a.wo.z);
+    let lobe = a.groove(&a.wo.z) * beckmann(a, a.scalar("m")) / (4.0 * &a.wo.z);
     a.mixture(&share(a), lobe)
 }
 

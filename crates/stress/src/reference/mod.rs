@@ -5,10 +5,14 @@
 //! directions has lost all digits where wi and wo are nearly opposite; and |wi - wo|/2 for the sine.
 
 mod diffuse;
+mod fitted;
 mod fresnel;
+mod he;
 mod microfacet;
 mod phong;
+mod scatter;
 mod ward;
+mod zernike;
 
 pub(crate) use fresnel::unpolarised;
 
@@ -122,7 +126,37 @@ pub(crate) const REFERENCES: &[Reference] = &[
         microfacet::cook_torrance,
         microfacet::cook_torrance_pdf,
     ),
+    reference(
+        "cook-torrance-smith",
+        microfacet::cook_torrance_smith,
+        microfacet::cook_torrance_pdf,
+    ),
     reference("ggx", microfacet::ggx, microfacet::ggx_pdf),
+    reference(
+        "ashikhmin-lobe",
+        phong::ashikhmin_lobe,
+        phong::ashikhmin_lobe_pdf,
+    ),
+    // its density is made of lobes chosen for convenience, not of anything published
+    Reference {
+        model: "he",
+        f: he::he,
+        pdf: None,
+    },
+    reference("sgd", fitted::sgd, fitted::sgd_pdf),
+    reference("abc", fitted::abc, fitted::abc_pdf),
+    reference("koenderink", zernike::koenderink, diffuse::cosine),
+    reference("abg", scatter::abg, scatter::abg_pdf),
+    reference(
+        "harvey-shack",
+        scatter::harvey_shack,
+        scatter::harvey_shack_pdf,
+    ),
+    reference(
+        "k-correlation",
+        scatter::k_correlation,
+        scatter::k_correlation_pdf,
+    ),
 ];
 
 impl<'a> Args<'a> {
@@ -171,6 +205,11 @@ impl<'a> Args<'a> {
         (apart.dot(&apart) * 0.25).min(&Real::new(1.0))
     }
 
+    /// One flank of a V-shaped groove: min(1, 2 hz c / h.w).
+    pub(crate) fn groove(&self, c: &Real) -> Real {
+        (2.0 * self.hz() * c / self.cos_d()).min(&Real::new(1.0))
+    }
+
     /// kd/pi.
     pub(crate) fn diffuse(&self) -> Real {
         self.own("kd") / Real::pi()
@@ -195,5 +234,20 @@ impl<'a> Args<'a> {
     /// share * lobe + (1 - share) cos/pi.
     pub(crate) fn mixture(&self, share: &Real, lobe: Real) -> Real {
         share * lobe + (1.0 - share) * &self.wi.z / Real::pi()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::REFERENCES;
+    use brdf_models::MODELS;
+
+    #[test]
+    fn every_model_has_one_reference() {
+        for model in MODELS {
+            let found = REFERENCES.iter().filter(|r| r.model == model.name).count();
+            assert_eq!(found, 1, "references of {}", model.name);
+        }
+        assert_eq!(REFERENCES.len(), MODELS.len(), "a reference of no model");
     }
 }

@@ -130,10 +130,27 @@ fn schlick(f0: f64, c: &Real) -> Real {
     f0 + (1.0 - Real::new(f0)) * (1.0 - c).pow(5.0)
 }
 
+/// The lobe of facets that reflect `f0`.
+fn ashikhmin_facets(a: &Args<'_>, f0: f64) -> Real {
+    ashikhmin_half(a) / 4.0 * schlick(f0, &a.cos_d()) / (a.cos_d() * a.wi.z.max(&a.wo.z))
+}
+
+pub(super) fn ashikhmin_lobe(a: &Args<'_>) -> Real {
+    a.diffuse() + a.own("ks") * ashikhmin_facets(a, a.own("f0"))
+}
+
+pub(super) fn ashikhmin_lobe_pdf(a: &Args<'_>) -> Real {
+    let cos = a.wo.z.min(&Real::new(1.0));
+    let share = a.share(
+        |c| a.in_channel("ks", c) * schlick(a.in_channel("f0", c), &cos),
+        |c| Real::new(a.in_channel("kd", c)),
+    );
+    a.mixture(&share, ashikhmin_half(a) / (4.0 * a.cos_d()))
+}
+
 pub(super) fn ashikhmin(a: &Args<'_>) -> Real {
     let (ks, kd) = (a.own("ks"), a.own("kd"));
-    let lobe =
-        ashikhmin_half(a) / 4.0 * schlick(ks, &a.cos_d()) / (a.cos_d() * a.wi.z.max(&a.wo.z));
+    let lobe = ashikhmin_facets(a, ks);
     let base = |w: &Vector| 1.0 - (1.0 - &w.z * 0.5).pow(5.0);
     let under = 28.0 * Real::new(kd) * (1.0 - Real::new(ks)) / (23.0 * Real::pi());
     lobe + under * base(&a.wi) * base(&a.wo)
