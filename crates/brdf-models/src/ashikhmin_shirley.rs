@@ -112,10 +112,10 @@ pub(crate) fn build_lobe<const N: usize>(values: &Values) -> Built<N> {
     })
 }
 
-/// (1 - c)^5 per channel as Schlick's approximation [Schlick1994].
+/// Schlick's approximation [Schlick1994] per channel, from 1 - c, which near the pole c itself has lost.
 #[inline]
-fn schlick<const N: usize>(f0: &[f64; N], c: f64) -> [f64; N] {
-    let m = (1.0 - c).powi(5);
+fn schlick<const N: usize>(f0: &[f64; N], one_minus_c: f64) -> [f64; N] {
+    let m = one_minus_c.powi(5);
     f0.map(|f| f + (1.0 - f) * m)
 }
 
@@ -162,7 +162,8 @@ impl<const N: usize> Brdf<N> for AshikhminShirley<N> {
             AshikhminBase::Coupled => 28.0 / 23.0 * FRAC_1_PI * base(wi.z) * base(wo.z),
             AshikhminBase::Lambert => FRAC_1_PI,
         };
-        let (f, d) = (schlick(&self.f0, cos_d), self.base_albedo());
+        let f = schlick(&self.f0, half.sin2_d() / (1.0 + cos_d));
+        let d = self.base_albedo();
         std::array::from_fn(|c| self.specular[c] * f[c] * lobe + d[c] * under)
     }
 
@@ -177,7 +178,7 @@ impl<const N: usize> Brdf<N> for AshikhminShirley<N> {
 impl<const N: usize> SpecularLobe for AshikhminShirley<N> {
     #[inline]
     fn probability(&self, wo: DVec3) -> f64 {
-        let f = schlick(&self.f0, wo.z.min(1.0));
+        let f = schlick(&self.f0, 1.0 - wo.z.min(1.0));
         let weight: [f64; N] = std::array::from_fn(|c| self.specular[c] * f[c]);
         share(&weight, &self.base_albedo())
     }

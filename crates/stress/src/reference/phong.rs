@@ -126,13 +126,15 @@ fn ashikhmin_half(a: &Args<'_>) -> Real {
     ((&nx + 1.0) * (&ny + 1.0)).sqrt() / (2.0 * Real::pi()) * power
 }
 
-fn schlick(f0: f64, c: &Real) -> Real {
-    f0 + (1.0 - Real::new(f0)) * (1.0 - c).pow(5.0)
+/// From m = 1 - c, which |wi - wo| knows where directions are of unit length to 1e-16 only.
+fn schlick(f0: f64, m: &Real) -> Real {
+    f0 + (1.0 - Real::new(f0)) * m.pow(5.0)
 }
 
 /// The lobe of facets that reflect `f0`.
 fn ashikhmin_facets(a: &Args<'_>, f0: f64) -> Real {
-    ashikhmin_half(a) / 4.0 * schlick(f0, &a.cos_d()) / (a.cos_d() * a.wi.z.max(&a.wo.z))
+    let m = a.sin2_d() / (1.0 + a.cos_d());
+    ashikhmin_half(a) / 4.0 * schlick(f0, &m) / (a.cos_d() * a.wi.z.max(&a.wo.z))
 }
 
 pub(super) fn ashikhmin_lobe(a: &Args<'_>) -> Real {
@@ -140,9 +142,9 @@ pub(super) fn ashikhmin_lobe(a: &Args<'_>) -> Real {
 }
 
 pub(super) fn ashikhmin_lobe_pdf(a: &Args<'_>) -> Real {
-    let cos = a.wo.z.min(&Real::new(1.0));
+    let m = 1.0 - a.wo.z.min(&Real::new(1.0));
     let share = a.share(
-        |c| a.in_channel("ks", c) * schlick(a.in_channel("f0", c), &cos),
+        |c| a.in_channel("ks", c) * schlick(a.in_channel("f0", c), &m),
         |c| Real::new(a.in_channel("kd", c)),
     );
     a.mixture(&share, ashikhmin_half(a) / (4.0 * a.cos_d()))
@@ -157,8 +159,9 @@ pub(super) fn ashikhmin(a: &Args<'_>) -> Real {
 }
 
 pub(super) fn ashikhmin_pdf(a: &Args<'_>) -> Real {
+    let m = 1.0 - a.wo.z.min(&Real::new(1.0));
     let share = a.share(
-        |c| schlick(a.in_channel("ks", c), &a.wo.z.min(&Real::new(1.0))),
+        |c| schlick(a.in_channel("ks", c), &m),
         |c| a.in_channel("kd", c) * (1.0 - Real::new(a.in_channel("ks", c))),
     );
     a.mixture(&share, ashikhmin_half(a) / (4.0 * a.cos_d()))
