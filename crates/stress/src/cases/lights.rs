@@ -16,7 +16,6 @@ const HALF_ANGLES: [f64; 9] = [1e-4, 1e-3, 1e-2, 0.27, 2.0, 10.0, 30.0, 60.0, 80
 const CENTRE: DVec3 = DVec3::new(0.3, 1.1, -0.7);
 
 /// Emitters by the names of the tracer's variants; a test compares them with the source.
-#[expect(clippy::too_many_lines, reason = "a list, a row a case")]
 pub(super) fn cases() -> Vec<Case> {
     let angle = "the centre and radius in f32, squared, and 1 - cos by sin^2/(1 + cos)";
     vec![
