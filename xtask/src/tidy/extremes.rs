@@ -22,6 +22,7 @@ const ENUMS: &[(&str, &str)] = &[
 const EXEMPT: &[(&str, &str)] = &[
     ("HeroGrid", "GriddedN's look-up by one of its channels"),
     ("HeroMeasured", "a table's values at drawn wavelengths"),
+    ("Recoloured", "a table's values times a factor a channel"),
     ("RglN", "RglTable's values, channel by channel"),
     ("Model3", "a sum of registered models"),
     ("MetalMix", "what other programs make of an export"),
