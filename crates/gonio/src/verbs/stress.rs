@@ -12,7 +12,7 @@ use stress::{Effort, Row, Timing, cases, run as run_cases, timings};
 /// Exit code 0 if every row keeps its bound and nothing infinite, negative or not a number came out; 1 otherwise.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
-  gonio stress                          the whole table, a minute or two
+  gonio stress                          the whole table, some minutes
   gonio stress --quick                  a part of every grid, some seconds
   gonio stress --only light             the rows whose name contains \"light\"
   gonio stress --json | jq '.rows[] | select(.ok | not)'

@@ -10,15 +10,10 @@ use std::f32::consts::{FRAC_PI_2, PI, TAU};
 pub(crate) struct Bound {
     low: Vec3,
     high: Vec3,
-    center: Vec3,
-    /// Half the diagonal, squared.
-    radius2: f32,
     /// Unit axis of the cone that holds all normals.
     axis: Vec3,
     /// Its half angle; pi for lights that shine all around.
     angle: f32,
-    sin: f32,
-    cos: f32,
     /// Along the axis of a lobe: brightness times area, summed over the lights.
     intensity: f32,
 }
@@ -28,12 +23,8 @@ impl Bound {
     pub(crate) const NONE: Self = Self {
         low: Vec3::INFINITY,
         high: Vec3::NEG_INFINITY,
-        center: Vec3::ZERO,
-        radius2: 0.0,
         axis: Vec3::Z,
         angle: 0.0,
-        sin: 0.0,
-        cos: 1.0,
         intensity: 0.0,
     };
 
@@ -48,17 +39,11 @@ impl Bound {
     }
 
     fn new([low, high]: [Vec3; 2], (axis, angle): (Vec3, f32), intensity: f32) -> Self {
-        let (sin, cos) = angle.sin_cos();
         Self {
             low,
             high,
-            center: 0.5 * (low + high),
-            // grown a little, so that rounding hides no light
-            radius2: 0.25 * (high - low).length_squared() * 1.001,
             axis,
             angle,
-            sin,
-            cos: if angle < PI { cos } else { -1.0 },
             intensity,
         }
     }
@@ -94,13 +79,24 @@ impl Bound {
     }
 
     pub(crate) fn center(&self) -> Vec3 {
-        self.center
+        0.5 * (self.low + self.high)
+    }
+
+    /// Half the diagonal, squared; grown a little, so that rounding hides no light.
+    fn radius2(&self) -> f32 {
+        0.25 * (self.high - self.low).length_squared() * 1.001
+    }
+
+    /// Sine and cosine of the cone's half angle.
+    fn sin_cos(&self) -> (f32, f32) {
+        let (sin, cos) = self.angle.sin_cos();
+        (sin, if self.angle < PI { cos } else { -1.0 })
     }
 
     /// Intensity times extent times spread of directions: what a split should make small [ContyEstevez2018].
     pub(crate) fn cost(&self) -> f32 {
         if self.intensity > 0.0 {
-            self.intensity * self.radius2 * self.spread()
+            self.intensity * self.radius2() * self.spread()
         } else {
             0.0
         }
@@ -108,12 +104,11 @@ impl Bound {
 
     /// Solid angle of the cone, and of the cosine lobes beyond it weighed by how they fall off.
     fn spread(&self) -> f32 {
+        let (sin, cos) = self.sin_cos();
         let widest = (self.angle + FRAC_PI_2).min(PI);
-        let beyond = 2.0 * widest * self.sin
-            - (self.angle - 2.0 * widest).cos()
-            - 2.0 * self.angle * self.sin
-            + self.cos;
-        TAU * (1.0 - self.cos) + FRAC_PI_2 * beyond
+        let beyond =
+            2.0 * widest * sin - (self.angle - 2.0 * widest).cos() - 2.0 * self.angle * sin + cos;
+        TAU * (1.0 - cos) + FRAC_PI_2 * beyond
     }
 
     /// What [`BoundLanes::importances`] says of one.
@@ -146,11 +141,10 @@ impl BoundLanes {
             intensity: [0.0; LANES],
         };
         for (k, bound) in bounds.iter().take(LANES).enumerate() {
-            all.center.set(k, bound.center);
-            all.radius2[k] = bound.radius2;
+            all.center.set(k, bound.center());
+            all.radius2[k] = bound.radius2();
             all.axis.set(k, bound.axis);
-            all.sin[k] = bound.sin;
-            all.cos[k] = bound.cos;
+            (all.sin[k], all.cos[k]) = bound.sin_cos();
             all.intensity[k] = bound.intensity;
         }
         all

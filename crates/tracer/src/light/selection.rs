@@ -234,13 +234,16 @@ fn several<E>(lights: &[Light<E>], powers: &[Option<f64>], selection: LightSelec
         LightSelection::Tree => true,
         LightSelection::Auto => members.len() >= MANY,
     };
+    if !tree {
+        return Choice::Shares(Shares::new(powers));
+    }
     // the tree first, then lights that are not in it
     let mut far = [&[Some(0.0)], powers].concat();
     for m in &members {
         let power = far[m.light as usize + 1].take();
         far[0] = Some(far[0].unwrap_or(0.0) + power.unwrap_or(0.0));
     }
-    match LightTree::new(members, lights.len()).filter(|_| tree) {
+    match LightTree::new(members, lights.len()) {
         Some(tree) => Choice::Tree(Shares::new(&far), tree),
         None => Choice::Shares(Shares::new(powers)),
     }
