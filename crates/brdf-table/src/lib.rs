@@ -5,8 +5,8 @@ pub mod rgl;
 pub mod scattered;
 
 pub use grid::{
-    CellPolicy, CellReport, GridError, Gridded, GriddedN, HalfDiffTable, HeroGrid, Interpolation,
-    MerlLoss, PhiDomain, TableBuilder, directional_albedo, mix,
+    BinnedGrid, CellPolicy, CellReport, GridError, Gridded, GriddedN, HalfDiffTable, HeroGrid,
+    Interpolation, MerlLoss, PhiDomain, TableBuilder, directional_albedo, mix,
 };
 pub use rgl::{RglN, RglTable};
 pub use scattered::{

@@ -7,6 +7,7 @@ use crate::verbs::render::Render;
 use crate::verbs::samplers::Samplers;
 use crate::verbs::stress::Stress;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use scene_io::material::MaterialOptions;
 use scene_io::scene::{ColourChoice, FileScale, InterpolationName, Primaries, White};
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -73,6 +74,26 @@ impl ColourArgs {
     }
 }
 
+/// How a measured file is read.
+#[derive(Clone, Copy, Debug, Default, Args)]
+pub(crate) struct Reading {
+    /// Interpolation of tables: see `gonio info FILE` for what a format offers.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) interpolation: Option<InterpolationName>,
+    #[command(flatten)]
+    pub(crate) colour: ColourArgs,
+}
+
+impl Reading {
+    pub(crate) fn options(self) -> MaterialOptions {
+        MaterialOptions {
+            interpolation: self.interpolation.unwrap_or(InterpolationName::Auto),
+            colour: self.colour.choice(),
+            ..MaterialOptions::default()
+        }
+    }
+}
+
 /// A range of wavelengths, nm.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Range(pub(crate) [f64; 2]);
@@ -128,11 +149,8 @@ pub(crate) struct Eval {
     /// Directions from a file: theta_i,phi_i,theta_o,phi_o in degrees a line.
     #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["theta_i", "theta_o"])]
     pub(crate) batch: Option<PathBuf>,
-    /// Interpolation of tables.
-    #[arg(long, value_name = "NAME")]
-    pub(crate) interpolation: Option<InterpolationName>,
     #[command(flatten)]
-    pub(crate) colour: ColourArgs,
+    pub(crate) reading: Reading,
 }
 
 /// The pictures `gonio plot` draws.
@@ -168,9 +186,8 @@ pub(crate) struct Plot {
     /// Logarithmic radius or colours.
     #[arg(long)]
     pub(crate) log: bool,
-    /// Interpolation of tables.
-    #[arg(long, value_name = "NAME")]
-    pub(crate) interpolation: Option<InterpolationName>,
+    #[command(flatten)]
+    pub(crate) reading: Reading,
 }
 
 /// Linear combination of materials, as a MERL file.
@@ -184,6 +201,8 @@ pub(crate) struct Mix {
     /// Output file.
     #[arg(short, long, value_name = "OUT")]
     pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) reading: Reading,
 }
 
 /// Convert between formats, and say what is lost.
@@ -192,15 +211,15 @@ pub(crate) struct Mix {
   .binary  MERL        .astm  Cornell ASTM E1392        .brdf  pbrt-v2 text
 Examples:
   gonio convert garnet_red_RGB.astm garnet.binary
+  gonio convert mine.binary scaled.binary --primaries Rec.2020 --scale 0.5
   gonio convert garnet_red.brdf garnet.astm")]
 pub(crate) struct Convert {
     /// Input file, any readable format.
     pub(crate) input: PathBuf,
     /// Output file.
     pub(crate) output: PathBuf,
-    /// Interpolation used where the grids differ.
-    #[arg(long, value_name = "NAME")]
-    pub(crate) interpolation: Option<InterpolationName>,
+    #[command(flatten)]
+    pub(crate) reading: Reading,
 }
 
 /// A virtual gonioreflectometer: measure a model onto the MERL or the Cornell grid.

@@ -1,27 +1,17 @@
 //! From what was typed to a loaded material.
 
+use crate::args::Reading;
 use crate::output::Usage;
 use crate::verbs::Context;
 use anyhow::Result;
-use scene_io::material::{LoadedMeasured, MaterialOptions, load_measured};
-use scene_io::scene::{ColourChoice, InterpolationName};
+use scene_io::material::{LoadedMeasured, load_measured};
 use spectrum::Basis;
 use std::path::Path;
 
 /// Loads a measured file, found in the current folder or a data folder.
-pub(crate) fn measured(
-    context: &Context,
-    file: &Path,
-    interpolation: Option<InterpolationName>,
-    colour: ColourChoice,
-) -> Result<LoadedMeasured> {
+pub(crate) fn measured(context: &Context, file: &Path, reading: Reading) -> Result<LoadedMeasured> {
     let path = context.places.data.find(file, Path::new(""))?;
-    let options = MaterialOptions {
-        interpolation: interpolation.unwrap_or(InterpolationName::Auto),
-        colour,
-        ..MaterialOptions::default()
-    };
-    Ok(load_measured(&path, &options)?)
+    Ok(load_measured(&path, &reading.options())?)
 }
 
 /// A short name for legends: the file's name without folders and ending.

@@ -4,6 +4,7 @@ use crate::error::{Error, ErrorKind};
 use crate::material::{
     Detail, LoadedMeasured, MaterialOptions, load_measured, measured_from_bytes,
 };
+use crate::scene::ColourChoice;
 use crate::{load, write};
 use brdf::{Measured, Projected, Status};
 use brdf_formats::{AstmFile, Channels, File, PbrtTextFile};
@@ -43,7 +44,7 @@ pub fn convert(
 ) -> Result<Conversion, Error> {
     let target = output_format(output)?;
     let loaded = load_measured(input, options)?;
-    if target == loaded.format.name {
+    if target == loaded.format.name && options.colour == ColourChoice::default() {
         write::bytes(output, &load::bytes(input, load::MAX_FILE_BYTES)?)?;
         return Ok(Conversion::default());
     }
@@ -227,11 +228,9 @@ fn to_astm(loaded: &LoadedMeasured, lost: &mut Vec<String>) -> Result<Vec<u8>, E
             ("SAMPLE_NAME", "converted from pbrt-v2 text"),
             ("SAMPLE_TYPE", "isotropic"),
         ];
-        let file = AstmFile::new(
-            &fields,
-            Channels::Wavelengths(text.wavelengths_nm().to_vec()),
-            text.rows().to_vec(),
-        );
+        let rows = scaled(text.rows(), &loaded.colour.scale);
+        let bands = Channels::Wavelengths(text.wavelengths_nm().to_vec());
+        let file = AstmFile::new(&fields, bands, rows);
         return Ok(file.map_err(|e| Error::invalid(e.to_string()))?.to_bytes());
     }
     lost.push("everything between Cornell's directions (1489 rows) and beyond 80 degrees".into());
@@ -268,8 +267,18 @@ fn to_pbrt_text(loaded: &LoadedMeasured, lost: &mut Vec<String>) -> Result<Vec<u
     };
     lost.push("the header: pbrt-v2 text has comments only".into());
     let comments = [" converted from ASTM E1392"];
-    let text = PbrtTextFile::new(&comments, nm.clone(), astm.rows().to_vec());
+    let rows = scaled(astm.rows(), &loaded.colour.scale);
+    let text = PbrtTextFile::new(&comments, nm.clone(), rows);
     Ok(text.map_err(|e| Error::invalid(e.to_string()))?.to_bytes())
+}
+
+/// Rows of four angles and a value a channel, the values times `factors`.
+fn scaled(rows: &[f64], factors: &[f64]) -> Vec<f64> {
+    let mut rows = rows.to_vec();
+    for row in rows.chunks_exact_mut(4 + factors.len()) {
+        row[4..].iter_mut().zip(factors).for_each(|(v, f)| *v *= f);
+    }
+    rows
 }
 
 /// Relative RMS difference of luminance times both cosines, over cosine-distributed pairs of directions.

@@ -1,7 +1,7 @@
 //! The stream: a batch of paths goes through each stage together.
 //!
 //! Per vertex: nearest hits; light met; sorting by material; for each material, blocks of vertices with a point on a
-//! light, one virtual call to evaluate and one to sample; shadow rays; new rays, dense again. Light is collected in
+//! light, one virtual call to evaluate and one to sample, shadow rays; new rays, dense again. Light is collected in
 //! one slot a path and added to the film in the order of the slots, whatever the paths' order became.
 
 use crate::film::Tile;
@@ -19,6 +19,10 @@ use std::time::Instant;
 /// Blocks of vertices a material is handed at once: few enough to stay in the first-level cache, enough to make the
 /// virtual call free.
 const BLOCKS: usize = 16;
+
+/// Shadow rays that wait to be traced together: what they carry is still in the first-level cache then, in many channels in
+/// the second.
+const WAITING: usize = 2 * BLOCKS * LANES;
 
 /// A path this weak ends: its products would be denormal. What a shadow ray carries is light, of any strength.
 const FAINT: f32 = 1e-30;
@@ -90,7 +94,7 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
             paths: Paths::new(capacity),
             next: Paths::new(capacity),
             hits: vec![HitLanes::EMPTY; capacity.div_ceil(LANES)],
-            shadows: Shadows::new(capacity),
+            shadows: Shadows::new(WAITING),
             order: vec![0; capacity],
             bucket: vec![0; capacity],
             ends: vec![0; materials + 1],
@@ -142,7 +146,6 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
             self.meet(kernel, depth);
             self.stats.stages.sort += lap();
             self.next.len = 0;
-            self.shadows.len = 0;
             let mut start = 0;
             for material in 0..kernel.scene.materials.len() {
                 let end = self.ends[material];
@@ -154,6 +157,10 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
                     self.stats.stages.material += lap();
                     self.advance(kernel, depth, blocks);
                     self.stats.stages.advance += lap();
+                    if self.shadows.len + BLOCKS * LANES > WAITING {
+                        self.trace_shadows(kernel);
+                        self.stats.stages.shadow += lap();
+                    }
                     start = stop;
                 }
             }
@@ -541,6 +548,7 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
             }
         }
         self.stats.shadow_rays += shadows.len as u64;
+        self.shadows.len = 0;
     }
 
     /// Adds the slots to the tile, in their order.

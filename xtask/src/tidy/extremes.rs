@@ -20,7 +20,11 @@ const ENUMS: &[(&str, &str)] = &[
 ];
 /// What needs none, and why.
 const EXEMPT: &[(&str, &str)] = &[
-    ("HeroGrid", "GriddedN's look-up by one of its channels"),
+    (
+        "BinnedGrid",
+        "GriddedN's look-up, channels summed, packed to 2^-15 of the largest",
+    ),
+    ("HeroGrid", "the same look-up by one of its channels"),
     ("HeroMeasured", "a table's values at drawn wavelengths"),
     ("Recoloured", "a table's values times a factor a channel"),
     ("RglN", "RglTable's values, channel by channel"),

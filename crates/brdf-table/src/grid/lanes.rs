@@ -11,6 +11,7 @@
 use crate::grid::fast_math::{atan2_upper, split};
 use crate::grid::layout::{Layout, PhiDomain};
 use crate::grid::lookup::Interpolation;
+use crate::grid::node_rows::{FloatRows, NodeRows};
 use brdf::{LANES, Lanes3};
 
 type F32s = [f32; LANES];
@@ -64,7 +65,8 @@ impl LaneLayout {
     ) -> [F32s; N] {
         let mut out = if N > GATHERED {
             // lane by lane: the corners of all lanes together would not fit the registers, nor the first-level cache
-            let rows = self.rows::<N>(nodes, how, wi, wo);
+            let (nodes, _) = nodes.as_chunks::<N>();
+            let rows = self.rows(&FloatRows(nodes), how, wi, wo);
             std::array::from_fn(|c| std::array::from_fn(|k| rows[k][c]))
         } else {
             self.gathered(nodes, how, wi, wo)
@@ -78,20 +80,19 @@ impl LaneLayout {
         out
     }
 
-    /// The interpolated node of each lane, `K` floats; anything finite where a direction is not above the horizon.
+    /// The interpolated row of each lane; anything finite where a direction is not above the horizon.
     #[inline(always)]
-    pub(crate) fn rows<const K: usize>(
+    pub(crate) fn rows<R: NodeRows>(
         &self,
-        nodes: &[f32],
+        nodes: &R,
         how: Interpolation,
         wi: &Lanes3,
         wo: &Lanes3,
-    ) -> [[f32; K]; LANES] {
-        let (nodes, _) = nodes.as_chunks::<K>();
+    ) -> [R::Row; LANES] {
         match (how, self.layout.phi) {
             (Interpolation::Nearest, phi) => {
                 let index = self.nearest(&self.positions(wi, wo, phi));
-                index.map(|node| nodes[node as usize])
+                index.map(|node| nodes.row(node as usize))
             }
             (Interpolation::Linear, PhiDomain::Mirror) => {
                 let at = self.positions(wi, wo, PhiDomain::Mirror);
@@ -205,13 +206,9 @@ impl LaneLayout {
 
 /// Each lane's cube, row by row.
 #[inline(always)]
-fn blend_rows<const K: usize>(
-    nodes: &[[f32; K]],
-    layout: &Layout,
-    at: &LaneStencils,
-) -> [[f32; K]; LANES] {
+fn blend_rows<R: NodeRows>(nodes: &R, layout: &Layout, at: &LaneStencils) -> [R::Row; LANES] {
     let (slab, row) = (layout.slab(), layout.row());
-    let mut out = [[0.0; K]; LANES];
+    let mut out = [R::ZERO; LANES];
     for k in 0..LANES {
         let [t_h, t_d, t_p] = [at.t[0][k], at.t[1][k], at.t[2][k]];
         let base = at.base[k] as usize;
@@ -222,11 +219,8 @@ fn blend_rows<const K: usize>(
             (base + slab + row, t_h * t_d),
         ];
         for (start, weight) in pairs {
-            let pair = &nodes[start..start + 2];
-            let (low, high) = (weight * (1.0 - t_p), weight * t_p);
-            for c in 0..K {
-                out[k][c] += low * pair[0][c] + high * pair[1][c];
-            }
+            let weights = [weight * (1.0 - t_p), weight * t_p];
+            nodes.add_pair(start, weights, &mut out[k]);
         }
     }
     out

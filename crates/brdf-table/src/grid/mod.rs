@@ -1,10 +1,12 @@
 //! Regular tables over Rusinkiewicz' half and difference angles: the MERL layout, generalised.
 //!
-//! [`HalfDiffTable`] holds the cells, [`Gridded`] and [`GriddedN`] interpolate them; [`TableBuilder`] takes the
+//! [`HalfDiffTable`] holds the cells, [`Gridded`] and [`GriddedN`] interpolate them, [`BinnedGrid`] and [`HeroGrid`] those of many bands; [`TableBuilder`] takes the
 //! values of a file and a named [`CellPolicy`], [`mix`] adds tables.
 //! Layout, cell placement and the averaging at the poles: `docs/tables.md`.
 
 mod albedo;
+mod band_grid;
+mod binned;
 mod builder;
 mod combine;
 mod error;
@@ -16,10 +18,12 @@ mod layout;
 mod lookup;
 mod mask;
 mod merl;
+mod node_rows;
 mod seal;
 mod table;
 
 pub use albedo::directional_albedo;
+pub use binned::BinnedGrid;
 pub use builder::{CellPolicy, CellReport, TableBuilder};
 pub use combine::mix;
 pub use error::GridError;

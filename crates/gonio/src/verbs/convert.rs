@@ -5,8 +5,6 @@ use crate::args::Convert;
 use crate::load;
 use anyhow::Result;
 use scene_io::convert::{Conversion, convert};
-use scene_io::material::MaterialOptions;
-use scene_io::scene::InterpolationName;
 use serde_json::json;
 use std::fmt::Write;
 use std::path::Path;
@@ -14,10 +12,7 @@ use std::path::Path;
 pub(crate) fn run(context: &Context, args: &Convert) -> Result<()> {
     load::check_material_output(&args.output)?;
     let input = context.places.data.find(&args.input, Path::new(""))?;
-    let options = MaterialOptions {
-        interpolation: args.interpolation.unwrap_or(InterpolationName::Auto),
-        ..MaterialOptions::default()
-    };
+    let options = args.reading.options();
     report(
         context,
         &args.output,

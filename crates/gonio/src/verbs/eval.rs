@@ -57,12 +57,7 @@ struct Reading {
 }
 
 pub(crate) fn run(context: &Context, args: &Eval) -> Result<()> {
-    let loaded = load::measured(
-        context,
-        &args.file,
-        args.interpolation,
-        args.colour.choice(),
-    )?;
+    let loaded = load::measured(context, &args.file, args.reading)?;
     let probe = Probe::new(loaded.measured.as_ref());
     let result = if let Some(batch) = &args.batch {
         let text = scene_io::load::text(batch, scene_io::load::MAX_FILE_BYTES)?;

@@ -5,7 +5,6 @@ use crate::args::Mix;
 use crate::load;
 use anyhow::Result;
 use scene_io::convert::mix_files;
-use scene_io::material::MaterialOptions;
 use std::path::{Path, PathBuf};
 
 pub(crate) fn run(context: &Context, args: &Mix) -> Result<()> {
@@ -16,6 +15,6 @@ pub(crate) fn run(context: &Context, args: &Mix) -> Result<()> {
         parts.push((context.places.data.find(file, Path::new(""))?, weight));
     }
     let parts: Vec<(&Path, f64)> = parts.iter().map(|(p, w)| (p.as_path(), *w)).collect();
-    let done = mix_files(&parts, &args.output, &MaterialOptions::default())?;
+    let done = mix_files(&parts, &args.output, &args.reading.options())?;
     super::convert::report(context, &args.output, &done)
 }

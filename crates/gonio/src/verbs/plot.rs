@@ -7,7 +7,6 @@ use crate::{curves, load};
 use anyhow::Result;
 use brdf::Measured;
 use plot::{Axis, Chart, Curve, HeatMap, PolarPlot, Radius, Scale, Stroke};
-use scene_io::scene::ColourChoice;
 use serde_json::json;
 use std::fmt::Write;
 use std::sync::Arc;
@@ -25,7 +24,7 @@ pub(crate) fn run(context: &Context, args: &Plot) -> Result<()> {
     }
     let mut materials: Vec<Named> = Vec::new();
     for file in &args.files {
-        let loaded = load::measured(context, file, args.interpolation, ColourChoice::default())?;
+        let loaded = load::measured(context, file, args.reading)?;
         materials.push((load::label(file), loaded.measured));
     }
     let svg = match args.kind {

@@ -64,6 +64,36 @@ fn eval_and_render_read_files_as_said() {
 }
 
 #[test]
+fn converting_mixing_and_plotting_read_files_as_said() {
+    let bench = bench();
+    let value = |file: &str| {
+        numbers(&bench.json(&format!("eval {file} --theta-i 20 --theta-o 30 --phi-o 60"))["value"])
+    };
+    bench.text("convert m.binary scaled.binary --scale 0.001");
+    bench.text("mix m.binary:1 m.binary:2 --scale 0.001 -o mixed.binary");
+    for (file, expected) in [("scaled.binary", 0.1), ("mixed.binary", 0.3)] {
+        for v in value(file) {
+            assert!((v - expected).abs() < 1e-6, "{file}: {v}");
+        }
+    }
+    // rows stay rows, there and back
+    bench.text("convert s.brdf there.astm --scale 2");
+    bench.text("convert there.astm back.brdf --scale 0.5,0.5,1");
+    let (as_is, there, back) = (value("s.brdf"), value("there.astm"), value("back.brdf"));
+    for c in 0..3 {
+        let factor = if c == 2 { 2.0 } else { 1.0 };
+        assert!((there[c] - 2.0 * as_is[c]).abs() < 1e-6, "{there:?}");
+        assert!((back[c] - factor * as_is[c]).abs() < 1e-6, "{back:?}");
+    }
+    bench.text("plot m.binary -o plain.svg");
+    bench.text("plot m.binary --scale 0.001 -o said.svg");
+    assert!(
+        bench.read("plain.svg") != bench.read("said.svg"),
+        "the same curves"
+    );
+}
+
+#[test]
 fn bad_colours_are_one_line() {
     let bench = bench();
     for (line, code, expected) in [

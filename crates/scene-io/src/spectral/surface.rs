@@ -186,6 +186,11 @@ impl SpectralSurface {
     }
 }
 
+/// Whether the channels are bands.
+fn bands(table: &HalfDiffTable) -> bool {
+    matches!(table.basis(), Basis::Bands(_))
+}
+
 /// The first three of at least as many.
 fn first<T: Clone>(rows: Vec<T>) -> [T; 3] {
     std::array::from_fn(|c| rows[c].clone())

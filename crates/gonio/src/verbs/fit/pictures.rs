@@ -1,6 +1,7 @@
 //! Fits beside the measurement: polar lobes and rendered spheres.
 
 use super::one::Source;
+use crate::args::Reading;
 use crate::verbs::Context;
 use crate::{curves, load};
 use anyhow::Result;
@@ -9,7 +10,6 @@ use brdf_fit::Fit;
 use brdf_fit::export::{Model3, scene_materials};
 use plot::{Curve, PolarPlot, Radius, Stroke};
 use scene_io::image::{Picture, write_png};
-use scene_io::scene::ColourChoice;
 use scene_io::{Overrides, SceneFile, build_scene};
 use spectrum::{Basis, RgbSpace};
 use std::path::{Path, PathBuf};
@@ -46,7 +46,7 @@ pub(super) fn polar(
         let theta = f64::to_radians(deg);
         drawn.push(match source {
             Source::File(path) => {
-                let loaded = load::measured(context, path, None, ColourChoice::default())?;
+                let loaded = load::measured(context, path, Reading::default())?;
                 curves::luminance_lobe(&*loaded.measured, &legend("data"), theta, [0, 0, 0])
             }
             Source::Model(model) => {

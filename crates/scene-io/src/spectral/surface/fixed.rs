@@ -2,14 +2,14 @@
 
 use super::super::channels::Channels;
 use super::sampler::{self, paired};
-use super::{Form, SpectralSurface, first, invalid, srgb};
+use super::{Form, SpectralSurface, bands, first, invalid, srgb};
 use crate::cache::Cache;
 use crate::error::Error;
 use crate::material::SamplerReport;
 use crate::scene::SamplerName;
 use brdf::{Material, Paired, Projected, Spread};
 use brdf_models::Lambert;
-use brdf_table::GriddedN;
+use brdf_table::{BinnedGrid, GriddedN};
 use spectrum::Basis;
 use std::sync::Arc;
 
@@ -44,6 +44,17 @@ impl SpectralSurface {
                 let grid = GriddedN::<3>::new(table, interpolation).map_err(invalid)?;
                 let brdf = Spread::new(grid, rows);
                 paired(brdf, sampler)
+            }
+            // more channels than bands: the bands are read, and summed up after
+            Form::Grid(table, interpolation) if bands(&table) && N > table.channels() => {
+                let rows = rows(table.basis());
+                if table.channels() < 32 {
+                    let brdf = BinnedGrid::<1, N>::new(&table, interpolation, &rows);
+                    paired(brdf.map_err(invalid)?, sampler)
+                } else {
+                    let brdf = BinnedGrid::<3, N>::new(&table, interpolation, &rows);
+                    paired(brdf.map_err(invalid)?, sampler)
+                }
             }
             Form::Grid(table, interpolation) => {
                 let table = if table.basis() == channels.basis() {

@@ -2,7 +2,7 @@
 
 use super::super::hero::{HeroChannels, rotated};
 use super::sampler::{self, paired};
-use super::{Form, SpectralSurface, first, invalid, srgb};
+use super::{Form, SpectralSurface, bands, first, invalid, srgb};
 use crate::cache::Cache;
 use crate::error::Error;
 use crate::material::SamplerReport;
@@ -41,21 +41,19 @@ impl SpectralSurface {
         let (sampler, report) = sampler::of(&self.rgb, name, cache)?;
         let material: Box<dyn Material<HERO, Rotation>> = match self.form {
             Form::Grid(table, interpolation) => match table.channels() {
-                3 => {
+                3 if !bands(&table) => {
                     let basis = Arc::new(first(tables(table.basis())));
                     let grid = GriddedN::<3>::new(table, interpolation).map_err(invalid)?;
                     let brdf = Rotated::new(grid, basis);
                     paired(brdf, sampler)
                 }
-                31 => {
-                    let grid = HeroGrid::<31>::new(table, interpolation, &under.lambda_nm);
-                    let brdf = grid.map_err(invalid)?;
-                    paired(brdf, sampler)
+                2..=31 if bands(&table) => {
+                    let brdf = HeroGrid::<1>::new(&table, interpolation, &under.lambda_nm);
+                    paired(brdf.map_err(invalid)?, sampler)
                 }
-                65 => {
-                    let grid = HeroGrid::<65>::new(table, interpolation, &under.lambda_nm);
-                    let brdf = grid.map_err(invalid)?;
-                    paired(brdf, sampler)
+                32..=95 if bands(&table) => {
+                    let brdf = HeroGrid::<3>::new(&table, interpolation, &under.lambda_nm);
+                    paired(brdf.map_err(invalid)?, sampler)
                 }
                 _ => {
                     let tables = tables(table.basis());
