@@ -40,6 +40,11 @@ pub trait Brdf<const N: usize>: Send + Sync {
         Symmetry::FULL
     }
 
+    /// Bytes of the tables it holds.
+    fn table_bytes(&self) -> usize {
+        0
+    }
+
     /// [`Self::eval`] for [`LANES`] pairs at once, in f32: what renderers call.
     ///
     /// The default calls `eval`; override it where speed matters. The two agree to f32 rounding.
@@ -137,6 +142,9 @@ impl<const N: usize, T: Brdf<N> + ?Sized> Brdf<N> for std::sync::Arc<T> {
     }
     fn symmetry(&self) -> Symmetry {
         (**self).symmetry()
+    }
+    fn table_bytes(&self) -> usize {
+        (**self).table_bytes()
     }
     #[inline(always)]
     fn eval_lanes(&self, wi: &Lanes3, wo: &Lanes3) -> [[f32; LANES]; N] {

@@ -11,6 +11,7 @@
 //!
 //! World space, files and particular models are unknown here.
 
+mod arch;
 mod contract;
 mod half_diff;
 mod lanes;
@@ -19,6 +20,7 @@ mod measured;
 mod spread;
 mod tag;
 
+pub use arch::{arch, instructions};
 pub use contract::{Brdf, DirectionSample, DirectionSampler, SampleLanes, Symmetry};
 pub use half_diff::{HalfDiff, direction};
 pub use lanes::{LANES, Lanes3};

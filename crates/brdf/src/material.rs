@@ -3,10 +3,11 @@
 //! Renderers hold `Box<dyn Material<N>>` and hand it whole streams of packets, so that one virtual call
 //! serves hundreds of paths and everything below it is compiled for the concrete pair.
 
+use crate::arch::arch;
 use crate::contract::DirectionSampler;
 use crate::lanes::{LANES, Lanes3};
 use crate::tag::{Tag, TaggedBrdf};
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 
 /// [`LANES`] evaluations: directions in, f cos and pdf out.
 #[derive(Clone, Debug)]
@@ -73,6 +74,11 @@ pub trait Material<const N: usize, T: Tag = ()>: Send + Sync {
     fn eval(&self, packets: &mut [EvalPacket<N, T>]);
     /// Fills `wi`, `pdf` and `weight` of every packet.
     fn sample(&self, packets: &mut [SamplePacket<N, T>]);
+
+    /// Bytes of the tables of its reflectance.
+    fn table_bytes(&self) -> usize {
+        0
+    }
 }
 
 /// The usual material: a [`Brdf`](crate::Brdf) (or [`TaggedBrdf`]) and the [`DirectionSampler`] chosen for it.
@@ -88,11 +94,15 @@ impl<const N: usize, T: Tag, B: TaggedBrdf<N, T>, S: DirectionSampler> Material<
     for Paired<B, S>
 {
     fn eval(&self, packets: &mut [EvalPacket<N, T>]) {
-        Arch::new().dispatch(Eval(self, packets));
+        arch().dispatch(Eval(self, packets));
     }
 
     fn sample(&self, packets: &mut [SamplePacket<N, T>]) {
-        Arch::new().dispatch(Sample(self, packets));
+        arch().dispatch(Sample(self, packets));
+    }
+
+    fn table_bytes(&self) -> usize {
+        self.brdf.table_bytes()
     }
 }
 

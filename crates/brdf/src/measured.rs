@@ -30,6 +30,11 @@ pub trait Measured: Send + Sync {
 
     /// The symmetries that hold exactly.
     fn symmetry(&self) -> Symmetry;
+
+    /// Bytes of the tables it holds.
+    fn table_bytes(&self) -> usize {
+        0
+    }
 }
 
 /// A [`Measured`] seen through a linear map to `N` channels (colour conversion, resampling to bins).
@@ -73,6 +78,10 @@ impl<M: Measured, const N: usize> Brdf<N> for Projected<M, N> {
     fn symmetry(&self) -> Symmetry {
         self.measured.symmetry()
     }
+
+    fn table_bytes(&self) -> usize {
+        self.measured.table_bytes()
+    }
 }
 
 impl<T: Measured + ?Sized> Measured for std::sync::Arc<T> {
@@ -84,6 +93,9 @@ impl<T: Measured + ?Sized> Measured for std::sync::Arc<T> {
     }
     fn symmetry(&self) -> Symmetry {
         (**self).symmetry()
+    }
+    fn table_bytes(&self) -> usize {
+        (**self).table_bytes()
     }
 }
 

@@ -44,6 +44,10 @@ impl<B: Brdf<K>, const K: usize, const N: usize> Brdf<N> for Spread<B, K, N> {
         self.brdf.symmetry()
     }
 
+    fn table_bytes(&self) -> usize {
+        self.brdf.table_bytes()
+    }
+
     #[inline(always)]
     fn eval_lanes(&self, wi: &Lanes3, wo: &Lanes3) -> [[f32; LANES]; N] {
         let f = self.brdf.eval_lanes(wi, wo);
@@ -75,6 +79,10 @@ impl<B: Brdf<K>, const K: usize> Rotated<B, K> {
 }
 
 impl<B: Brdf<K>, const K: usize> TaggedBrdf<HERO, Rotation> for Rotated<B, K> {
+    fn table_bytes(&self) -> usize {
+        self.brdf.table_bytes()
+    }
+
     #[inline(always)]
     fn eval_tagged(
         &self,

@@ -85,12 +85,21 @@ impl Tag for Rotation {
 pub trait TaggedBrdf<const N: usize, T: Tag>: Send + Sync {
     /// f_r in 1/sr per channel, lane by lane; as [`Brdf::eval_lanes`].
     fn eval_tagged(&self, wi: &Lanes3, wo: &Lanes3, tags: &[T; LANES]) -> [[f32; LANES]; N];
+
+    /// Bytes of the tables it holds.
+    fn table_bytes(&self) -> usize {
+        0
+    }
 }
 
 impl<const N: usize, B: Brdf<N>> TaggedBrdf<N, ()> for B {
     #[inline(always)]
     fn eval_tagged(&self, wi: &Lanes3, wo: &Lanes3, _: &[(); LANES]) -> [[f32; LANES]; N] {
         self.eval_lanes(wi, wo)
+    }
+
+    fn table_bytes(&self) -> usize {
+        Brdf::table_bytes(self)
     }
 }
 
@@ -100,5 +109,9 @@ impl<const N: usize, B: TaggedBrdf<N, Rotation> + ?Sized> TaggedBrdf<N, Rotation
     #[inline(always)]
     fn eval_tagged(&self, wi: &Lanes3, wo: &Lanes3, tags: &[Rotation; LANES]) -> [[f32; LANES]; N] {
         (**self).eval_tagged(wi, wo, tags)
+    }
+
+    fn table_bytes(&self) -> usize {
+        (**self).table_bytes()
     }
 }

@@ -15,12 +15,21 @@ pub(crate) fn write_pictures(
     picture: &Picture,
     tone: ToneMap,
 ) -> Result<(PathBuf, GamutReport)> {
-    match film.spectral() {
-        Some(spectral) => write_spectral_exr(output, picture, &spectral)?,
-        None => write_exr(output, picture)?,
-    }
     let png = output.with_extension("png");
-    let report = write_png(&png, picture, tone).context("the EXR was written")?;
+    // side by side: both compress
+    let (exr, report) = std::thread::scope(|scope| {
+        let other = scope.spawn(|| write_png(&png, picture, tone));
+        let exr = match film.spectral() {
+            Some(spectral) => write_spectral_exr(output, picture, &spectral),
+            None => write_exr(output, picture),
+        };
+        (exr, other.join())
+    });
+    exr?;
+    let report = match report {
+        Ok(report) => report.context("the EXR was written")?,
+        Err(panic) => std::panic::resume_unwind(panic),
+    };
     Ok((png, report))
 }
 

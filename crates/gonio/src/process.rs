@@ -2,6 +2,7 @@
 
 use crate::output::say;
 use anyhow::{Context as _, Result};
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -36,4 +37,12 @@ pub(crate) fn cpu_seconds() -> f64 {
     {
         0.0
     }
+}
+
+/// The largest resident size of this process so far, bytes; where the system says.
+pub(crate) fn peak_bytes() -> Option<u64> {
+    let status = scene_io::load::text(Path::new("/proc/self/status"), 1 << 20).ok()?;
+    let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"))?;
+    let kib: u64 = line.trim().trim_end_matches("kB").trim().parse().ok()?;
+    Some(kib << 10)
 }

@@ -15,6 +15,7 @@ use crate::overrides::Overrides;
 use crate::scene::{ExposureSpec, FilterSpec, MaterialSpec, PointsName, SceneFile};
 use crate::spectral::{self, AnyScene, Palette, RgbPalette};
 use glam::DVec3;
+use std::time::Instant;
 use tracer::{Camera, Description, LightSelection, PixelFilter, PointSet, Scene, Settings};
 
 /// Where the files of a scene are found and kept.
@@ -41,6 +42,8 @@ pub struct BuiltScene<S = Scene<3>> {
     pub file: SceneFile,
     /// One entry a material in use, the main material first.
     pub materials: Vec<MaterialReport>,
+    /// Seconds it took to read meshes and pictures, and then to build the scene of all.
+    pub seconds: [f64; 2],
     /// What the scene does not use and therefore cost nothing.
     pub left_out: Vec<String>,
     /// What happened on the way and may matter.
@@ -112,6 +115,7 @@ fn assemble<S>(
         exposure: file.film.exposure,
         left_out: left_out(&file, &made.index),
         materials: made.reports,
+        seconds: made.seconds,
         scene: made.scene,
         file,
         notes,
@@ -122,6 +126,7 @@ fn assemble<S>(
 pub(crate) struct Parts<S> {
     scene: S,
     reports: Vec<MaterialReport>,
+    seconds: [f64; 2],
     index: materials::Index,
 }
 
@@ -131,6 +136,7 @@ impl<S> Parts<S> {
         Parts {
             scene: f(self.scene),
             reports: self.reports,
+            seconds: self.seconds,
             index: self.index,
         }
     }
@@ -144,6 +150,7 @@ pub(crate) fn parts<const N: usize, P: Palette<N>>(
     notes: &mut Vec<String>,
 ) -> Result<Parts<Scene<N, P::Mode>>, Error> {
     let used = materials::load(file, places, palette)?;
+    let start = Instant::now();
     let objects = shapes::objects(file, (&used.index, palette), places, notes)?;
     let (lights, environment) = lights::lights(file, places, palette)?;
     let description = Description {
@@ -160,11 +167,13 @@ pub(crate) fn parts<const N: usize, P: Palette<N>>(
         selection: LightSelection::Auto,
     };
     notes.extend(uneven(file, &used.reports));
+    let read = start.elapsed().as_secs_f64();
     let scene =
         Scene::with_mode(palette.mode(), description).map_err(|e| Error::invalid(e.to_string()))?;
     Ok(Parts {
         scene,
         reports: used.reports,
+        seconds: [read, start.elapsed().as_secs_f64() - read],
         index: used.index,
     })
 }

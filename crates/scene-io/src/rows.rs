@@ -58,11 +58,11 @@ impl Recorder {
     ///
     /// # Errors
     /// If the file can't be written; the row is kept.
-    pub fn push<const N: usize>(
+    pub fn push(
         &mut self,
         [seconds, cpu_seconds]: [f64; 2],
         spp: u32,
-        estimate: &Estimate<N>,
+        estimate: &Estimate,
     ) -> Result<(), Error> {
         self.rows.push(Row {
             seconds,

@@ -112,6 +112,19 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
         }
     }
 
+    /// What all this takes.
+    pub(crate) fn bytes(&self) -> usize {
+        let paths = self.paths.bytes() + self.next.bytes() + self.shadows.bytes();
+        let blocks = size_of_val(&self.hits[..])
+            + size_of_val(&self.vertices[..])
+            + size_of_val(&self.lights[..])
+            + size_of_val(&self.evals[..])
+            + size_of_val(&self.samples[..]);
+        // order, bucket, met, stream, index and two coordinates a slot
+        let slots = size_of_val(&self.slots[..]) + size_of_val(&self.tag[..]);
+        paths + blocks + slots + 7 * size_of_val(&self.order[..])
+    }
+
     /// Traces the samples of every pixel of `tile` and adds them to it.
     #[inline(always)]
     fn run<const M: usize>(

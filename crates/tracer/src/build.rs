@@ -9,13 +9,7 @@ use crate::scene::{Description, MAX_PRIMITIVES, Object, Scene, SceneError, Surfa
 use crate::shape::{Mesh, Quad, Shape, Sphere, Triangle};
 use glam::{DVec3, Vec3};
 use std::f64::consts::PI;
-
-/// A triangle on its way into the tree.
-#[derive(Clone, Copy)]
-struct Loose {
-    triangle: Triangle,
-    info: TriangleInfo,
-}
+use std::sync::Arc;
 
 /// A mesh object that shines: lights need the primitives' final order.
 struct Shining {
@@ -30,7 +24,9 @@ pub(crate) struct Builder<const N: usize, S: Mode<N>> {
     sphere_objects: Vec<u32>,
     quad_objects: Vec<u32>,
     surfaces: Vec<Surface>,
-    loose: Vec<Loose>,
+    /// On their way into the tree, and what they are.
+    triangles: Vec<Triangle>,
+    infos: Vec<TriangleInfo>,
     shining: Vec<Shining>,
     pub(crate) lights: Vec<Light<S::Emission>>,
     /// What a light's share in the choice goes by; `None` keeps it out.
@@ -48,7 +44,8 @@ impl<const N: usize, S: Mode<N>> Builder<N, S> {
             sphere_objects: Vec::new(),
             quad_objects: Vec::new(),
             surfaces: Vec::new(),
-            loose: Vec::new(),
+            triangles: Vec::new(),
+            infos: Vec::new(),
             shining: Vec::new(),
             lights: Vec::new(),
             powers: Vec::new(),
@@ -65,7 +62,7 @@ impl<const N: usize, S: Mode<N>> Builder<N, S> {
                     reason,
                 })?;
         }
-        let primitives = self.sphere_objects.len() + self.quad_objects.len() + self.loose.len();
+        let primitives = self.sphere_objects.len() + self.quad_objects.len() + self.triangles.len();
         if primitives > MAX_PRIMITIVES as usize {
             return Err(SceneError::TooMany);
         }
@@ -73,15 +70,16 @@ impl<const N: usize, S: Mode<N>> Builder<N, S> {
         self.point_lights()?;
         let environment = self.environment()?;
         let selection = self.description.selection;
-        let lights = Lights::new(self.lights.clone(), &self.powers, selection);
+        let shared: Arc<[_]> = std::mem::take(&mut self.lights).into();
+        let lights = Lights::new(Arc::clone(&shared), &self.powers, selection);
         let with_constant: Vec<_> = (self.powers.iter())
-            .zip(&self.lights)
+            .zip(shared.iter())
             .map(|(power, light)| match light.emitter {
                 Emitter::Constant => Some(self.environment_power(light.strength.brightness())),
                 _ => *power,
             })
             .collect();
-        let all_lights = Lights::new(std::mem::take(&mut self.lights), &with_constant, selection);
+        let all_lights = Lights::new(shared, &with_constant, selection);
         Ok(Scene {
             mode,
             camera: self.description.camera,
@@ -232,7 +230,12 @@ impl<const N: usize, S: Mode<N>> Builder<N, S> {
         let m = object.transform.matrix3;
         let flip = m.determinant() < 0.0;
         let cofactors = m.determinant() * m.inverse().transpose();
-        let first = self.loose.len();
+        let first = self.triangles.len();
+        self.triangles.reserve_exact(mesh.triangles.len());
+        self.infos.reserve_exact(mesh.triangles.len());
+        if mesh.normals.is_some() {
+            (self.geometry.normals).reserve_exact(3 * mesh.triangles.len());
+        }
         for corners in &mesh.triangles {
             let mut order = corners.map(|i| i as usize);
             if flip {
@@ -257,9 +260,10 @@ impl<const N: usize, S: Mode<N>> Builder<N, S> {
                     .normals
                     .extend(turned.map(|n| n.normalize_or(triangle.normal())));
             }
-            self.loose.push(Loose { triangle, info });
+            self.triangles.push(triangle);
+            self.infos.push(info);
         }
-        if let Some(emission) = shining(object).filter(|_| self.loose.len() > first) {
+        if let Some(emission) = shining(object).filter(|_| self.triangles.len() > first) {
             self.shining.push(Shining {
                 object: index,
                 light: self.lights.len(),
@@ -308,33 +312,30 @@ impl<const N: usize, S: Mode<N>> Builder<N, S> {
                 }
             }
         }
-        let loose = std::mem::take(&mut self.loose);
-        if loose.is_empty() {
+        let triangles = std::mem::take(&mut self.triangles);
+        let infos = std::mem::take(&mut self.infos);
+        if triangles.is_empty() {
             return;
         }
-        let triangles: Vec<_> = loose.iter().map(|l| l.triangle).collect();
-        let (bvh, order) = Bvh::new(&triangles);
+        // lights keep triangles as they were given
+        let mut members: Vec<Vec<(Triangle, u32)>> = vec![Vec::new(); objects.len()];
+        let shines: Vec<bool> = objects.iter().map(|o| shining(o).is_some()).collect();
+        let bright = (infos.iter().zip(&triangles).zip(0..))
+            .filter(|((info, _), _)| shines[info.object as usize]);
+        let bright: Vec<(u32, Triangle)> = bright.map(|((_, t), i)| (i, *t)).collect();
+        let (bvh, order) = Bvh::new(triangles);
         self.geometry.bvh = Some(bvh);
-        self.geometry.triangles = (order.iter())
-            .map(|&i| {
-                loose
-                    .get(i as usize)
-                    .map_or(TriangleInfo::SPARE, |l| l.info)
-            })
-            .collect();
+        let info = |i: &u32| (infos.get(*i as usize).copied()).unwrap_or(TriangleInfo::SPARE);
+        self.geometry.triangles = order.iter().map(info).collect();
         let base = self.geometry.first_triangle();
-        let mut members: Vec<(Vec<Triangle>, Vec<u32>)> = vec![Default::default(); objects.len()];
-        for (&i, prim) in order.iter().zip(base..) {
-            if let Some(l) = loose.get(i as usize) {
-                let object = l.info.object as usize;
-                if shining(&objects[object]).is_some() {
-                    members[object].0.push(l.triangle);
-                    members[object].1.push(prim);
-                }
+        for (i, prim) in order.iter().zip(base..) {
+            if let Ok(at) = bright.binary_search_by_key(i, |b| b.0) {
+                members[info(i).object as usize].push((bright[at].1, prim));
             }
         }
         for shining in std::mem::take(&mut self.shining) {
-            let (members, prims) = std::mem::take(&mut members[shining.object]);
+            let members = std::mem::take(&mut members[shining.object]);
+            let (members, prims) = members.into_iter().unzip();
             if let Some(light) = TriangleLight::new(members, prims) {
                 let emission = objects[shining.object].emission.as_ref();
                 let emission = emission.map_or(0.0, Emission::brightness);

@@ -56,7 +56,7 @@ impl<const N: usize, S: Mode<N>> Builder<N, S> {
 
     /// Adds the environment as the last light; its index.
     pub(crate) fn environment(&mut self) -> Result<Option<u32>, SceneError> {
-        let (emitter, strength, power) = match &self.description.environment {
+        let (emitter, strength, power) = match self.description.environment.take() {
             None => return Ok(None),
             Some(Environment::Constant(radiance)) => {
                 if !radiance.is_finite() {
@@ -75,11 +75,12 @@ impl<const N: usize, S: Mode<N>> Builder<N, S> {
                     return Err(SceneError::Environment("radiance must be finite"));
                 }
                 let total: f64 = image.pixels.iter().map(Emission::brightness).sum();
+                let first = image.pixels[0].clone();
                 match ImageLight::new(image) {
                     None => return Ok(None),
                     Some(light) => {
                         let power = self.environment_power(total / count as f64);
-                        (Emitter::Image(light), &image.pixels[0], Some(power))
+                        (Emitter::Image(light), first, Some(power))
                     }
                 }
             }
@@ -88,7 +89,7 @@ impl<const N: usize, S: Mode<N>> Builder<N, S> {
         self.powers.push(power);
         self.lights.push(Light {
             emitter,
-            strength: strength.clone(),
+            strength,
             prim: NONE,
         });
         Ok(Some(index))

@@ -30,7 +30,7 @@ pub struct RayHit {
 impl<const N: usize, S: Mode<N>> Scene<N, S> {
     /// What each ray meets first before its `t_max`, into `hits`; as many as the shorter of the two.
     pub fn nearest(&self, rays: &[Ray], hits: &mut [Option<RayHit>]) {
-        pulp::Arch::new().dispatch(Nearest {
+        brdf::arch().dispatch(Nearest {
             scene: self,
             rays,
             hits,

@@ -1,20 +1,15 @@
 //! What the replicates say about the error of the picture.
 
-use crate::film::Film;
+use crate::film::{Counts, Film, Tile};
 use crate::interval::{Pairs, ratio_interval};
+use rayon::prelude::*;
 
-/// A picture with the error it knows of itself.
+/// The error a picture knows of itself.
 ///
 /// All errors are those of the mean of everything the film holds: what the same render with another seed would err by,
 /// in the root mean square. They are exact in expectation for independent replicates.
-#[derive(Clone, Debug)]
-pub struct Estimate<const N: usize> {
-    /// The picture, row after row from the top.
-    pub mean: Vec<[f64; N]>,
-    /// Variance of each mean; infinite where fewer than two replicates have samples.
-    pub variance: Vec<[f64; N]>,
-    /// Replicates less one: the degrees of freedom of each variance.
-    pub degrees: u32,
+#[derive(Clone, Copy, Debug)]
+pub struct Estimate {
     /// sqrt(mean over pixels and channels of the squared error).
     pub rmse: f64,
     /// Interval that holds the expected `rmse` with the confidence asked for.
@@ -27,33 +22,33 @@ pub struct Estimate<const N: usize> {
     pub effective_degrees: f64,
 }
 
+/// A picture with the variance of each of its values.
+#[derive(Clone, Debug)]
+pub struct Moments<const N: usize> {
+    /// The picture, row after row from the top.
+    pub mean: Vec<[f64; N]>,
+    /// Variance of each mean; infinite where fewer than two replicates have samples.
+    pub variance: Vec<[f64; N]>,
+    /// Replicates less one: the degrees of freedom of each variance.
+    pub degrees: u32,
+}
+
 impl<const N: usize> Film<N> {
-    /// The picture and its error; `confidence` in (0, 1) is that of the intervals.
+    /// The error of the picture; `confidence` in (0, 1) is that of the intervals.
     #[must_use]
-    pub fn estimate(&self, confidence: f64) -> Estimate<N> {
-        let empty = ([0.0; N], [f64::INFINITY; N], None);
-        let pixels = self.map(empty, |tile, sums| {
-            let count = |r| tile.samples_of(r);
-            let (mean, variance) = mean_and_variance(sums, count);
-            (mean, variance, Pairs::of(sums, count))
-        });
+    pub fn estimate(&self, confidence: f64) -> Estimate {
+        // in parallel by tile, then tile after tile: the same bits whatever the threads
+        let tiles: Vec<Sums> = self.tiles.par_iter().map(Sums::of).collect();
+        let Sums {
+            square,
+            error,
+            pairs,
+        } = tiles.into_iter().fold(Sums::default(), Sums::and);
         let replicates = self.replicates().min(self.spp());
-        let (mut square, mut error) = (0.0, 0.0);
-        let mut pairs = Some(Pairs::default());
-        let (mut mean, mut variance) = (Vec::new(), Vec::new());
-        for (m, v, own) in pixels {
-            square += m.iter().map(|x| x * x).sum::<f64>();
-            error += v.iter().sum::<f64>();
-            pairs = pairs.zip(own).map(|(mut all, own)| {
-                all.add(own);
-                all
-            });
-            mean.push(m);
-            variance.push(v);
-        }
+        let values = self.width() as usize * self.height() as usize * N;
         // E(mean^2) = truth^2 + variance
         let truth = square - error;
-        let spread = Spread::new([error, truth], pairs, replicates, mean.len() * N);
+        let spread = Spread::new([error, truth], pairs, replicates, values);
         let rel = if error.abs() == 0.0 {
             0.0
         } else if truth > 0.0 && error.is_finite() {
@@ -61,7 +56,7 @@ impl<const N: usize> Film<N> {
         } else {
             f64::INFINITY
         };
-        let rmse = (error / (mean.len() * N).max(1) as f64).sqrt();
+        let rmse = (error / values.max(1) as f64).sqrt();
         let interval = |of: f64, ratio: [f64; 2]| {
             if replicates < 2 || of.is_infinite() {
                 return [0.0, f64::INFINITY];
@@ -70,22 +65,29 @@ impl<const N: usize> Film<N> {
             ratio.map(|factor| if of > 0.0 { of * factor.sqrt() } else { of })
         };
         let t = sampling::student_quantile(confidence, spread.certainty);
-        let rmse_ci = interval(rmse, ratio_interval([spread.alone, 0.0], t));
-        let rel_rmse_ci = interval(rel, ratio_interval(spread.relative, t));
         Estimate {
             rmse,
-            rmse_ci,
+            rmse_ci: interval(rmse, ratio_interval([spread.alone, 0.0], t)),
             rel_rmse: rel,
-            rel_rmse_ci,
+            rel_rmse_ci: interval(rel, ratio_interval(spread.relative, t)),
             effective_degrees: 2.0 / spread.alone,
-            mean,
-            variance,
+        }
+    }
+
+    /// The picture and the variance of each of its values.
+    #[must_use]
+    pub fn moments(&self) -> Moments<N> {
+        let replicates = self.replicates().min(self.spp());
+        // one after the other: both at once would need twice the memory on the way
+        Moments {
+            mean: self.mean(),
+            variance: self.map([0.0; N], |counts, sums| mean_and_variance(counts, sums).1),
             degrees: replicates.saturating_sub(1),
         }
     }
 }
 
-impl<const N: usize> Estimate<N> {
+impl<const N: usize> Moments<N> {
     /// Half the width of the interval about a channel of a pixel that holds the truth with `confidence`: Student's t.
     #[must_use]
     pub fn half_width(&self, pixel: usize, channel: usize, confidence: f64) -> f64 {
@@ -95,36 +97,78 @@ impl<const N: usize> Estimate<N> {
     }
 }
 
-/// Mean of all samples and its variance, from sums by replicate. Replicates count by their samples, so that it holds
-/// for any number of samples.
-fn mean_and_variance<const N: usize>(
-    sums: &[[f64; N]],
-    count: impl Fn(u32) -> u32,
-) -> ([f64; N], [f64; N]) {
-    let (mut total, mut samples, mut used) = ([0.0; N], 0.0, 0.0);
-    for (r, sum) in (0..).zip(sums) {
-        samples += f64::from(count(r));
-        used += if count(r) > 0 { 1.0 } else { 0.0 };
+/// What is summed over pixels: squares of means, their variances, and what these vary by unless some pixel has too few
+/// replicates to tell.
+struct Sums {
+    square: f64,
+    error: f64,
+    pairs: Option<Pairs>,
+}
+
+impl Default for Sums {
+    fn default() -> Self {
+        Self {
+            square: 0.0,
+            error: 0.0,
+            pairs: Some(Pairs::default()),
+        }
+    }
+}
+
+impl Sums {
+    fn of<const N: usize>(tile: &Tile<N>) -> Self {
+        let counts = tile.counts();
+        let mut sums = Self::default();
+        let mut means = vec![[0.0; N]; counts.used.len()];
+        for pixel in tile.by_pixel() {
+            for (mean, &(r, _, inverse)) in means.iter_mut().zip(&counts.used) {
+                *mean = pixel[r].map(|s| s * inverse);
+            }
+            let (mean, variance) = mean_and_variance(&counts, pixel);
+            sums = sums.and(Self {
+                square: mean.iter().map(|x| x * x).sum(),
+                error: variance.iter().sum(),
+                pairs: Pairs::of(&means),
+            });
+        }
+        sums
+    }
+
+    fn and(self, other: Self) -> Self {
+        Self {
+            square: self.square + other.square,
+            error: self.error + other.error,
+            pairs: self.pairs.zip(other.pairs).map(|(a, b)| a.and(b)),
+        }
+    }
+}
+
+/// Mean of all samples and its variance, from samples and sums by replicate. Replicates count by their samples, so that it
+/// holds for any number of samples.
+fn mean_and_variance<const N: usize>(counts: &Counts, sums: &[[f64; N]]) -> ([f64; N], [f64; N]) {
+    if counts.used.is_empty() {
+        return ([0.0; N], [f64::INFINITY; N]);
+    }
+    let mut total = [0.0; N];
+    for sum in sums {
         for c in 0..N {
             total[c] += sum[c];
         }
     }
-    if samples < 1.0 {
-        return ([0.0; N], [f64::INFINITY; N]);
-    }
-    let mean = total.map(|t| t / samples);
-    if used < 2.0 {
+    let mean = total.map(|t| t / counts.samples);
+    if counts.used.len() < 2 {
         return (mean, [f64::INFINITY; N]);
     }
     let mut variance = [0.0; N];
-    for (r, sum) in (0..).zip(sums) {
-        let n = f64::from(count(r));
+    for &(r, n, inverse) in &counts.used {
         for c in 0..N {
-            let off = if n > 0.0 { sum[c] / n - mean[c] } else { 0.0 };
-            variance[c] += n * off * off / ((used - 1.0) * samples);
+            let off = sums[r][c] * inverse - mean[c];
+            variance[c] += n * off * off;
         }
     }
-    (mean, variance)
+    let degrees = (counts.used.len() - 1) as f64;
+    let scale = 1.0 / (degrees * counts.samples);
+    (mean, variance.map(|v| v * scale))
 }
 
 /// What the intervals rest on: twice the inverse degrees of freedom of the chi-squares that stand for V and T
@@ -167,23 +211,27 @@ impl Spread {
 mod tests {
     use super::*;
 
+    fn counts(samples: &[u32]) -> Counts {
+        Counts::new(samples.iter().copied())
+    }
+
     #[test]
     fn mean_and_variance_of_even_replicates_are_the_textbook_ones() {
-        let (mean, variance) = mean_and_variance(&[[2.0], [4.0], [6.0], [8.0]], |_| 2);
+        let (mean, variance) = mean_and_variance(&counts(&[2; 4]), &[[2.0], [4.0], [6.0], [8.0]]);
         assert!((mean[0] - 2.5).abs() < 1e-12, "mean of 1, 2, 3, 4");
         assert!((variance[0] - 5.0 / 3.0 / 4.0).abs() < 1e-12, "s^2 / R");
     }
 
     #[test]
     fn uneven_replicates_keep_the_mean() {
-        let (mean, variance) = mean_and_variance(&[[3.0], [1.0], [0.0]], |r| [3, 1, 0][r as usize]);
+        let (mean, variance) = mean_and_variance(&counts(&[3, 1, 0]), &[[3.0], [1.0], [0.0]]);
         assert!((mean[0] - 1.0).abs() < 1e-12, "mean of four ones");
         assert!(variance[0].abs() < 1e-12, "which do not differ");
     }
 
     #[test]
     fn one_replicate_claims_nothing() {
-        let (_, variance) = mean_and_variance(&[[3.0], [0.0]], |r| 1 - r);
+        let (_, variance) = mean_and_variance(&counts(&[1, 0]), &[[3.0], [0.0]]);
         assert!(variance[0].is_infinite(), "infinite variance");
     }
 }

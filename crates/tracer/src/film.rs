@@ -1,5 +1,7 @@
 //! The film: sums per pixel and replicate, tile by tile.
 
+use rayon::prelude::*;
+
 /// Edge of a tile in pixels.
 pub(crate) const TILE: u32 = 16;
 
@@ -26,6 +28,29 @@ pub struct Tile<const N: usize> {
     replicates: u32,
     pub(crate) done: u32,
     sums: Vec<[f64; N]>,
+}
+
+/// How many samples a pixel each replicate holds.
+#[derive(Clone, Debug)]
+pub(crate) struct Counts {
+    /// Replicates that hold any: which, how many, and the inverse of that, since divisions are what an estimate costs.
+    pub(crate) used: Vec<(usize, f64, f64)>,
+    /// Samples in all.
+    pub(crate) samples: f64,
+}
+
+impl Counts {
+    pub(crate) fn new(samples: impl Iterator<Item = u32>) -> Self {
+        let samples = samples.map(f64::from);
+        let used: Vec<_> = (samples.enumerate())
+            .filter(|(_, n)| *n > 0.0)
+            .map(|(r, n)| (r, n, 1.0 / n))
+            .collect();
+        Self {
+            samples: used.iter().map(|u| u.1).sum(),
+            used,
+        }
+    }
 }
 
 /// Why stored sums don't fit a film.
@@ -80,6 +105,12 @@ impl<const N: usize> Film<N> {
     #[must_use]
     pub fn height(&self) -> u32 {
         self.height
+    }
+
+    /// Bytes of its sums: `8 * N * replicates` a pixel.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.tiles.iter().map(|t| size_of_val(&t.sums[..])).sum()
     }
 
     /// Independent scrambles.
@@ -137,14 +168,14 @@ impl<const N: usize> Film<N> {
     /// The picture, row after row from the top; zero where there are no samples yet.
     #[must_use]
     pub fn mean(&self) -> Vec<[f64; N]> {
-        self.map([0.0; N], |tile, sums| {
+        self.map([0.0; N], |counts, sums| {
             let mut total = [0.0; N];
             for sum in sums {
                 for c in 0..N {
                     total[c] += sum[c];
                 }
             }
-            total.map(|t| t / f64::from(tile.done.max(1)))
+            total.map(|t| t / counts.samples.max(1.0))
         })
     }
 
@@ -175,19 +206,28 @@ impl<const N: usize> Film<N> {
             width: self.width,
             height: self.height,
             replicates: self.replicates,
-            tiles: self.tiles.iter().map(tile).collect(),
+            tiles: self.tiles.par_iter().map(tile).collect(),
         }
     }
 
-    /// One value a pixel, row after row, from its tile and its sums by replicate.
-    pub(crate) fn map<T: Clone>(&self, empty: T, f: impl Fn(&Tile<N>, &[[f64; N]]) -> T) -> Vec<T> {
-        let mut out = vec![empty; self.width as usize * self.height as usize];
-        for tile in &self.tiles {
-            let sums = tile.sums.chunks_exact(self.replicates as usize);
-            for ((x, y), sums) in tile.pixels().zip(sums) {
-                out[y as usize * self.width as usize + x as usize] = f(tile, sums);
+    /// One value a pixel, row after row, from the samples of replicates and their sums; rows of tiles in parallel.
+    pub(crate) fn map<T: Clone + Send>(
+        &self,
+        empty: T,
+        f: impl Fn(&Counts, &[[f64; N]]) -> T + Sync,
+    ) -> Vec<T> {
+        let width = self.width as usize;
+        let mut out = vec![empty; width * self.height as usize];
+        let bands = out.par_chunks_mut(width * TILE as usize);
+        let tiles = self.tiles.par_chunks(width.div_ceil(TILE as usize));
+        bands.zip(tiles).for_each(|(band, tiles)| {
+            for tile in tiles {
+                let counts = tile.counts();
+                for ((x, y), sums) in tile.pixels().zip(tile.by_pixel()) {
+                    band[(y % TILE) as usize * width + x as usize] = f(&counts, sums);
+                }
             }
-        }
+        });
         out
     }
 }
@@ -209,6 +249,16 @@ impl<const N: usize> Tile<N> {
     #[must_use]
     pub fn samples_of(&self, r: u32) -> u32 {
         (self.done + self.replicates - 1 - r.min(self.replicates - 1)) / self.replicates
+    }
+
+    /// The samples of its replicates.
+    pub(crate) fn counts(&self) -> Counts {
+        Counts::new((0..self.replicates).map(|r| self.samples_of(r)))
+    }
+
+    /// The sums of each pixel by replicate.
+    pub(crate) fn by_pixel(&self) -> impl Iterator<Item = &[[f64; N]]> {
+        self.sums.chunks_exact(self.replicates as usize)
     }
 
     /// Coordinates of its pixels in the picture, row after row.

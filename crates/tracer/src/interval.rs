@@ -19,49 +19,35 @@ pub(crate) struct Pairs {
 }
 
 impl Pairs {
-    /// Of one pixel, from its sums by replicate; `None` below four replicates.
-    pub(crate) fn of<const N: usize>(
-        sums: &[[f64; N]],
-        count: impl Fn(u32) -> u32,
-    ) -> Option<Self> {
-        let mut x = Vec::with_capacity(sums.len());
-        for (r, sum) in (0..).zip(sums) {
-            if count(r) > 0 {
-                x.push(sum.map(|s| s / f64::from(count(r))));
-            }
-        }
-        if x.len() < 4 {
+    /// Of one pixel, from the means of its replicates; `None` below four of them.
+    pub(crate) fn of<const N: usize>(means: &[[f64; N]]) -> Option<Self> {
+        if means.len() < 4 {
             return None;
         }
-        let mut products = Products::new(x.len());
-        for (i, a) in x.iter().enumerate() {
-            for (j, b) in x.iter().enumerate().skip(i + 1) {
-                let (mut d, mut g) = (0.0, 0.0);
-                for (a, b) in a.iter().zip(b) {
-                    d += 0.5 * (a - b) * (a - b);
-                    g += a * b;
-                }
-                products.add([i, j], [d / x.len() as f64, g]);
-            }
-        }
-        let var_v = products.covariance(0, 0);
-        let v = products.mean(0);
-        let normal = 2.0 * v * v / (x.len() + 1) as f64;
+        let moments = Moments::of(means);
+        // D lacks its 1 / R so far
+        let r = moments.n;
+        let [var_v, cov, var_t] = moments.covariances();
+        let v = moments.a / (r * (r - 1.0));
+        let normal = 2.0 * v * v / (r + 1.0);
+        let var_v = var_v / (r * r);
         Some(Self {
             var_v,
-            cov: products.covariance(0, 1),
-            var_t: products.covariance(1, 1),
+            cov: cov / r,
+            var_t,
             normal,
             excess: (var_v - normal) * (var_v - normal),
         })
     }
 
-    pub(crate) fn add(&mut self, other: Self) {
-        self.var_v += other.var_v;
-        self.cov += other.cov;
-        self.var_t += other.var_t;
-        self.normal += other.normal;
-        self.excess += other.excess;
+    pub(crate) fn and(self, other: Self) -> Self {
+        Self {
+            var_v: self.var_v + other.var_v,
+            cov: self.cov + other.cov,
+            var_t: self.var_t + other.var_t,
+            normal: self.normal + other.normal,
+            excess: self.excess + other.excess,
+        }
     }
 
     /// Var(V): the free estimate, never below the normal one. By itself it is as noisy as its largest pixels, and small where
@@ -79,52 +65,96 @@ impl Pairs {
     }
 }
 
-/// Sums of products of two symmetric functions of pairs.
-struct Products {
+/// Sums over replicates that all sums over pairs come down to, of a_i = |y_i|^2 and b_i = m . y_i, where m is the mean of the
+/// replicates and the y_i = x_i - m sum to zero.
+struct Moments {
     n: f64,
-    /// Over all pairs.
-    sum: [f64; 2],
-    /// Over the pairs with one replicate.
-    with: Vec<[f64; 2]>,
-    /// Of products at the same pair: 00, 01, 11.
-    same: [f64; 3],
+    a: f64,
+    aa: f64,
+    ab: f64,
+    bb: f64,
+    /// Sum over i and j of p_ij^2, p_ij = y_i . y_j: as much as the squares of all entries of sum_i y_i y_i^T.
+    pp: f64,
 }
 
-impl Products {
-    fn new(n: usize) -> Self {
-        Self {
-            n: n as f64,
-            sum: [0.0; 2],
-            with: vec![[0.0; 2]; n],
-            same: [0.0; 3],
-        }
-    }
-
-    fn add(&mut self, pair: [usize; 2], value: [f64; 2]) {
-        for c in 0..2 {
-            self.sum[c] += value[c];
-            for i in pair {
-                self.with[i][c] += value[c];
+impl Moments {
+    fn of<const N: usize>(x: &[[f64; N]]) -> Self {
+        let n = x.len() as f64;
+        let mut m = [0.0; N];
+        for x in x {
+            for c in 0..N {
+                m[c] += x[c];
             }
         }
-        let [d, g] = value;
-        for (s, p) in self.same.iter_mut().zip([d * d, d * g, g * g]) {
-            *s += p;
+        let m = m.map(|sum| sum / n);
+        let (mut sums, mut gram) = ([0.0; 4], [[0.0; N]; N]);
+        for x in x {
+            let (mut a, mut b, mut y) = (0.0, 0.0, [0.0; N]);
+            for c in 0..N {
+                y[c] = x[c] - m[c];
+                a += y[c] * y[c];
+                b += m[c] * y[c];
+            }
+            for (sum, term) in sums.iter_mut().zip([a, a * a, a * b, b * b]) {
+                *sum += term;
+            }
+            for c in 0..N {
+                for d in 0..=c {
+                    gram[c][d] += y[c] * y[d];
+                }
+            }
+        }
+        let [a, aa, ab, bb] = sums;
+        let mut pp = 0.0;
+        for c in 0..N {
+            pp += gram[c][c] * gram[c][c];
+            for d in 0..c {
+                pp += 2.0 * gram[c][d] * gram[c][d];
+            }
+        }
+        Self {
+            n,
+            a,
+            aa,
+            ab,
+            bb,
+            pp,
         }
     }
 
-    /// U(A).
-    fn mean(&self, a: usize) -> f64 {
-        self.sum[a] / (self.n * (self.n - 1.0) / 2.0)
-    }
-
-    /// U(A) U(B) less the mean of A_ij B_kl over disjoint pairs.
-    fn covariance(&self, a: usize, b: usize) -> f64 {
-        let shared: f64 = self.with.iter().map(|t| t[a] * t[b]).sum();
-        let pairs = self.n * (self.n - 1.0) / 2.0;
-        let apart = pairs * (self.n - 2.0) * (self.n - 3.0) / 2.0;
-        let product = self.sum[a] * self.sum[b];
-        product / (pairs * pairs) - (product - shared + self.same[a + b]) / apart
+    /// U(A) U(B) less the mean of A_ij B_kl over disjoint pairs, for AB = DD, DG and GG.
+    ///
+    /// R D_ij = (a_i + a_j) / 2 - p_ij and G_ij = |m|^2 + b_i + b_j + p_ij, whose constant changes no covariance and is left
+    /// out. Since sum_j p_ij = sum_j b_j = 0, every sum below is one over replicates.
+    fn covariances(&self) -> [f64; 3] {
+        let &Self {
+            n,
+            a,
+            aa,
+            ab,
+            bb,
+            pp,
+        } = self;
+        // over all pairs
+        let (d, g) = (0.5 * n * a, -0.5 * a);
+        let products = [d * d, d * g, g * g];
+        // over pairs of pairs that share a replicate: sum_i of what D and G add up to with it
+        let with = [
+            0.25 * n * (n * aa + 3.0 * a * a),
+            0.5 * (n * (n - 2.0) * ab - n * aa - a * a),
+            (n - 2.0) * (n - 2.0) * bb - 2.0 * (n - 2.0) * ab + aa,
+        ];
+        // over pairs taken twice
+        let same = [
+            0.25 * (n * aa + a * a) + 0.5 * pp,
+            0.5 * (n * ab - pp),
+            (n - 2.0) * bb - 2.0 * ab + 0.5 * (pp - aa),
+        ];
+        let pairs = n * (n - 1.0) / 2.0;
+        let apart = pairs * (n - 2.0) * (n - 3.0) / 2.0;
+        std::array::from_fn(|k| {
+            products[k] / (pairs * pairs) - (products[k] - with[k] + same[k]) / apart
+        })
     }
 }
 
@@ -168,7 +198,7 @@ mod tests {
         let (mut sums, mut products) = ([0.0; 2], [0.0; 3]);
         for _ in 0..runs {
             let x: [[f64; 2]; R] = std::array::from_fn(|_| draw());
-            let pairs = Pairs::of(&x, |_| 1).unwrap();
+            let pairs = Pairs::of(&x).unwrap();
             for (k, value) in [pairs.var_v, pairs.cov, pairs.var_t]
                 .into_iter()
                 .enumerate()
@@ -232,9 +262,58 @@ mod tests {
         }
     }
 
+    /// Var(V), Cov(V, T), Var(T) by the definition: sums over pairs of pairs.
+    fn by_pairs(x: &[[f64; 3]]) -> [f64; 3] {
+        let r = x.len();
+        let pairs: Vec<(usize, usize)> = (0..r)
+            .flat_map(|i| (i + 1..r).map(move |j| (i, j)))
+            .collect();
+        let terms = |i: usize, j: usize| {
+            let (mut d, mut g) = (0.0, 0.0);
+            for (a, b) in x[i].iter().zip(&x[j]) {
+                d += (a - b) * (a - b) / (2.0 * r as f64);
+                g += a * b;
+            }
+            [d, g]
+        };
+        [[0, 0], [0, 1], [1, 1]].map(|[a, b]| {
+            let mean = |f: usize| pairs.iter().map(|&(i, j)| terms(i, j)[f]).sum::<f64>();
+            let (mut apart, mut number) = (0.0, 0.0);
+            for &(i, j) in &pairs {
+                for &(k, l) in &pairs {
+                    if ![k, l].contains(&i) && ![k, l].contains(&j) {
+                        apart += terms(i, j)[a] * terms(k, l)[b];
+                        number += 1.0;
+                    }
+                }
+            }
+            let all = pairs.len() as f64;
+            mean(a) * mean(b) / (all * all) - apart / number
+        })
+    }
+
+    #[test]
+    fn sums_over_replicates_are_those_over_pairs() {
+        let mut rng = sampling::Rng::new(9);
+        for r in [4, 5, 8] {
+            let x: Vec<[f64; 3]> = (0..r)
+                .map(|_| std::array::from_fn(|c| c as f64 + rng.uniform()))
+                .collect();
+            let found = Pairs::of(&x).unwrap();
+            let found = [found.var_v, found.cov, found.var_t];
+            for (found, expected) in found.into_iter().zip(by_pairs(&x)) {
+                // of terms of size 1 to 100
+                assert!(
+                    (found - expected).abs() < 1e-11,
+                    "{found} of {r}, by pairs {expected}"
+                );
+            }
+        }
+    }
+
     #[test]
     fn three_replicates_say_nothing() {
-        assert!(Pairs::of(&[[1.0], [2.0], [4.0]], |_| 1).is_none());
+        assert!(Pairs::of(&[[1.0], [2.0], [4.0]]).is_none());
     }
 
     #[test]

@@ -71,7 +71,7 @@ impl<'a, const N: usize, S: Mode<N>> Kernel<'a, N, S> {
             max_depth: settings.max_depth,
             roulette: settings.roulette.unwrap_or(u32::MAX),
             seed: mix(settings.seed),
-            arch: pulp::Arch::new(),
+            arch: brdf::arch(),
             ask_lights: settings.strategy != Strategy::BsdfOnly && lights.any(),
             count_met: settings.strategy != Strategy::LightOnly,
             weigh: matches!(settings.strategy, Strategy::Mis | Strategy::Ris),

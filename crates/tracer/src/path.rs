@@ -116,6 +116,11 @@ impl<const N: usize> Paths<N> {
     pub(crate) fn blocks(&self) -> usize {
         self.len.div_ceil(LANES)
     }
+
+    pub(crate) fn bytes(&self) -> usize {
+        let rays = size_of_val(&self.rays[..]) + size_of_val(&self.throughput[..]);
+        rays + size_of_val(&self.slot[..]) + size_of_val(&self.pdf[..])
+    }
 }
 
 /// Shadow rays with what they carry if nothing is in the way.
@@ -140,6 +145,11 @@ impl<const N: usize> Shadows<N> {
             light: vec![[0.0; N]; capacity],
             len: 0,
         }
+    }
+
+    pub(crate) fn bytes(&self) -> usize {
+        let rays = size_of_val(&self.rays[..]) + size_of_val(&self.target[..]);
+        rays + size_of_val(&self.slot[..]) + size_of_val(&self.light[..])
     }
 
     /// Appends a ray of length `t_max` toward primitive `target` carrying `path.throughput` if it is to be kept;

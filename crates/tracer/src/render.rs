@@ -109,6 +109,7 @@ fn passes<const N: usize, const M: usize, S: Develop<N, M>>(
     let workspaces: Vec<Workspace<N, S>> = pool.into_inner().unwrap_or_default();
     for workspace in &workspaces {
         stats += workspace.stats;
+        stats.buffers += workspace.bytes() as u64;
     }
     stats
 }

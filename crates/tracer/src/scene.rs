@@ -1,9 +1,10 @@
 //! What a caller describes, and the scene that is rendered.
 
 use crate::build::Builder;
+use crate::bvh::Bvh;
 use crate::camera::Camera;
 use crate::geometry::{Geometry, TriangleInfo};
-use crate::light::{Environment, LightSelection, Lights, PointLight};
+use crate::light::{Emitter, Environment, LightSelection, Lights, PointLight};
 use crate::mode::{Fixed, Mode};
 use crate::path::NONE;
 use crate::shape::Shape;
@@ -131,6 +132,15 @@ pub struct Scene<const N: usize, S: Mode<N> = Fixed> {
     pub(crate) left_out: usize,
 }
 
+/// What a scene takes beside its materials.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SceneBytes {
+    /// Tree, leaves, objects and corner normals of triangles.
+    pub triangles: usize,
+    /// A picture around the scene with its sampling tables.
+    pub environment: usize,
+}
+
 impl<const N: usize, S: Mode<N>> std::fmt::Debug for Scene<N, S> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Scene")
@@ -165,6 +175,22 @@ impl<const N: usize, S: Mode<N>> Scene<N, S> {
     pub fn triangles(&self) -> usize {
         let taken = |t: &&TriangleInfo| t.object != NONE;
         self.geometry.triangles.iter().filter(taken).count()
+    }
+
+    /// Bytes of the tree over triangles with what they are and their normals, and of pictures that light the scene.
+    #[must_use]
+    pub fn bytes(&self) -> SceneBytes {
+        let geometry = &self.geometry;
+        let pictures = self.lights.lights.iter().map(|l| match &l.emitter {
+            Emitter::Image(light) => light.bytes(),
+            _ => 0,
+        });
+        SceneBytes {
+            triangles: geometry.bvh.as_ref().map_or(0, Bvh::bytes)
+                + size_of_val(&geometry.triangles[..])
+                + size_of_val(&geometry.normals[..]),
+            environment: pictures.sum(),
+        }
     }
 
     /// Triangles that were left out since they have no area.

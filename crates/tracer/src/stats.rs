@@ -14,6 +14,8 @@ pub struct Stats {
     pub shadow_rays: u64,
     /// Vertices where light was scattered.
     pub vertices: u64,
+    /// Bytes of the buffers of all workers.
+    pub buffers: u64,
     /// Time by stage.
     pub stages: Stages,
 }
@@ -62,6 +64,7 @@ impl AddAssign for Stats {
         self.closest_rays += other.closest_rays;
         self.shadow_rays += other.shadow_rays;
         self.vertices += other.vertices;
+        self.buffers = self.buffers.max(other.buffers);
         let (a, b) = (&mut self.stages, other.stages);
         a.camera += b.camera;
         a.closest += b.closest;

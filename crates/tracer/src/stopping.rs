@@ -39,10 +39,10 @@ impl Target {
     ///
     /// # Errors
     /// Those of the pilot.
-    pub fn choose<const N: usize, E>(
+    pub fn choose<E>(
         &self,
         first: u32,
-        mut pilot: impl FnMut(u32, f64) -> Result<Estimate<N>, E>,
+        mut pilot: impl FnMut(u32, f64) -> Result<Estimate, E>,
     ) -> Result<Choice, E> {
         let mut alpha = 1.0 - self.confidence;
         let mut spp = first.clamp(1, self.most.max(1));

@@ -1,9 +1,9 @@
-//! The forms that rendering calls, `GriddedN` and `RglN`, answer like the tables they show: in f64 exactly, in lanes up to
-//! the rounding of f32 directions.
+//! The forms that rendering calls, `GriddedN`, `BinnedGrid` and `RglN`, answer like the tables they show: in f64 exactly, in
+//! lanes up to the rounding of f32 directions; packed tables up to their 16 bits.
 
 use crate::table_kinds::{gloss_grid, rgl_table};
 use brdf::{Brdf, LANES, Lanes3, Measured};
-use brdf_table::{Gridded, GriddedN, Interpolation, PhiDomain, RglN};
+use brdf_table::{BinnedGrid, Gridded, GriddedN, Interpolation, PhiDomain, RglN};
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -50,13 +50,20 @@ fn rendering_forms_answer_like_their_tables() {
     for interpolation in [Interpolation::Nearest, Interpolation::Linear] {
         let table = Arc::new(gloss_grid(PhiDomain::Reciprocal));
         let shown = GriddedN::<3>::new(Arc::clone(&table), interpolation).unwrap();
-        let [exact, lanes] = differences(
-            &shown,
-            &Gridded {
-                table,
-                interpolation,
-            },
+        let one = |b: usize, c: usize| if b == c { 1.0 } else { 0.0 };
+        let rows: [[f64; 3]; 3] = std::array::from_fn(|b| std::array::from_fn(|c| one(b, c)));
+        let packed = BinnedGrid::<1, 3>::new(&table, interpolation, &rows).unwrap();
+        let native = Gridded {
+            table,
+            interpolation,
+        };
+        let [single, packets] = differences(&packed, &native);
+        // half a step of 15 bits, and f32 directions
+        assert!(
+            single.max(packets) < 4e-5,
+            "BinnedGrid {interpolation:?}: {single:e}, in lanes {packets:e}"
         );
+        let [exact, lanes] = differences(&shown, &native);
         assert!(exact <= 0.0, "GriddedN {interpolation:?}: {exact:e}");
         // a direction of f32 moves a smooth table by about 1e-6; a nearest cell may flip at its border, which these pairs avoid
         assert!(

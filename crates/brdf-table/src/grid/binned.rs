@@ -47,12 +47,6 @@ impl<const L: usize, const N: usize> BinnedGrid<L, N> {
             weights,
         })
     }
-
-    /// Bytes held.
-    #[must_use]
-    pub fn bytes(&self) -> usize {
-        self.grid.bytes()
-    }
 }
 
 impl<const L: usize, const N: usize> Brdf<N> for BinnedGrid<L, N> {
@@ -67,6 +61,10 @@ impl<const L: usize, const N: usize> Brdf<N> for BinnedGrid<L, N> {
 
     fn symmetry(&self) -> Symmetry {
         self.grid.symmetry
+    }
+
+    fn table_bytes(&self) -> usize {
+        self.grid.bytes()
     }
 
     #[inline(always)]

@@ -31,6 +31,10 @@ impl Measured for Gridded {
     fn symmetry(&self) -> Symmetry {
         self.table.symmetry()
     }
+
+    fn table_bytes(&self) -> usize {
+        self.table.bytes()
+    }
 }
 
 /// A table of exactly `N` channels, interpolated: the same values, and fast for packets of directions.
@@ -81,6 +85,10 @@ impl<const N: usize> Brdf<N> for GriddedN<N> {
 
     fn symmetry(&self) -> Symmetry {
         self.table.symmetry()
+    }
+
+    fn table_bytes(&self) -> usize {
+        self.table.bytes()
     }
 
     #[inline(always)]

@@ -49,12 +49,6 @@ impl<const L: usize> HeroGrid<L> {
             taps: Arc::new(taps),
         })
     }
-
-    /// Bytes held.
-    #[must_use]
-    pub fn bytes(&self) -> usize {
-        self.grid.bytes()
-    }
 }
 
 /// At least two ascending bands.
@@ -72,6 +66,10 @@ fn tap(bands: &[f64], nm: f64) -> Tap {
 }
 
 impl<const L: usize> TaggedBrdf<HERO, Rotation> for HeroGrid<L> {
+    fn table_bytes(&self) -> usize {
+        self.grid.bytes()
+    }
+
     #[inline(always)]
     fn eval_tagged(
         &self,

@@ -77,7 +77,7 @@ impl<const L: usize> PackedRows<L> {
 fn pack<const L: usize>(row: &[f32]) -> [Line; L] {
     let most = row.iter().fold(0.0_f32, |m, v| m.max(v.abs()));
     // most / 2^e lies in [2^14, 2^15); below that range single precision has denormal numbers, which become zero
-    let exponent = ((most.to_bits() >> 23) as i32 - 127 - 14).max(-126);
+    let exponent = ((most.to_bits() >> 23).cast_signed() - 127 - 14).max(-126);
     let unit = power_of_two(exponent);
     let mut out = [Line([0; LINE]); L];
     for (c, v) in row.iter().enumerate() {

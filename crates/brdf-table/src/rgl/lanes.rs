@@ -78,6 +78,10 @@ impl<const N: usize> LaneValues<N> {
         Self { nx, ny, nodes }
     }
 
+    pub(crate) fn bytes(&self) -> usize {
+        size_of_val(&self.nodes[..])
+    }
+
     #[inline(always)]
     fn blend(&self, u: [f32; 2], s: &Between) -> [f32; N] {
         let at = Spot::new(u, self.nx, self.ny);

@@ -11,7 +11,7 @@ use brdf::{Brdf, DirectionSample, DirectionSampler, LANES, Lanes3};
 use brdf::{Measured, SampleLanes, Status, Symmetry};
 use brdf_formats::{Channels, Error, RglArray, RglFile};
 use glam::{DVec2, DVec3};
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 use spectrum::{Basis, RgbSpace};
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI, TAU};
 use std::sync::Arc;
@@ -174,6 +174,10 @@ impl Measured for RglTable {
             reciprocal: false,
         }
     }
+
+    fn table_bytes(&self) -> usize {
+        DirectionSampler::bytes(self)
+    }
 }
 
 /// The file's own sampling: luminance, then visible normals. `None` also where the sampled normal
@@ -257,10 +261,14 @@ impl<const N: usize> Brdf<N> for RglN<N> {
         Measured::symmetry(&*self.table)
     }
 
+    fn table_bytes(&self) -> usize {
+        self.table.bytes() + self.values.bytes()
+    }
+
     /// Chooses the instruction set for itself, since it costs more than that and may be called through a pointer.
     fn eval_lanes(&self, wi: &Lanes3, wo: &Lanes3) -> [[f32; LANES]; N] {
         match &self.table.lanes {
-            Some(lanes) => Arch::new().dispatch(EvalLanes {
+            Some(lanes) => brdf::arch().dispatch(EvalLanes {
                 lanes,
                 values: &self.values,
                 wi,

@@ -116,7 +116,7 @@ impl Polyharmonic {
         for (o, l) in rest.iter_mut().zip(self.linear.iter().skip(1)) {
             *o = linear(l);
         }
-        pulp::Arch::new().dispatch(KernelSum {
+        brdf::arch().dispatch(KernelSum {
             surface: self,
             x,
             first,

@@ -1,5 +1,6 @@
 //! `gonio render [SCENE.ron]`.
 
+mod account;
 mod args;
 mod error_map;
 pub(crate) mod keeper;
@@ -11,6 +12,7 @@ mod trace;
 use super::Context;
 use crate::output::say;
 use crate::pictures::{Gamut, write_pictures};
+use account::Clock;
 use anyhow::{Context as _, Result};
 pub(crate) use args::Render;
 use report::Report;
@@ -21,10 +23,10 @@ use scene_io::spectral::{AnyFilm, AnyScene};
 use scene_io::{BuiltScene, DEFAULT_SCENE, Overrides, SceneFile, build_any_scene};
 use std::num::NonZeroUsize;
 use std::path::Path;
-use std::time::Instant;
 use trace::{Aimed, trace};
 
 pub(crate) fn run(context: &Context, args: &Render) -> Result<()> {
+    let mut clock = Clock::new();
     // hours of rendering must not end at a folder that does not exist
     scene_io::write::check(&args.output)?;
     if let Some(map) = &args.error_map {
@@ -42,21 +44,33 @@ pub(crate) fn run(context: &Context, args: &Render) -> Result<()> {
             Path::new(""),
         )?,
     };
-    let start = Instant::now();
+    clock.scene_read();
     let mut built = build_any_scene(file, &overrides(args), &context.places)?;
     built.settings.threads = args.threads.and_then(|t| NonZeroUsize::new(t.into()));
-    let build_seconds = start.elapsed().as_secs_f64();
+    clock.built(&built);
     for note in &built.notes {
         say(format_args!("note: {note}"));
     }
     built.settings.shard = args.shard;
     let trials = strategy::settle(&mut built, args.light_strategy)?;
-    if args.explain && !context.json {
-        report::explain(&built, build_seconds);
+    clock.strategy_chosen();
+    let explain = args.explain && !context.json;
+    if explain {
+        report::explain(&built, clock.seconds.before());
         strategy::explain(&built, trials);
     }
     let traced = trace(&mut built, context, args, recorder)?;
-    let report = write(&built, &traced, args, build_seconds)?;
+    clock.traced(&traced);
+    let report = write(&built, &traced, args, &mut clock)?;
+    if let Some(error) = traced.unsaved {
+        return Err(match args.shard {
+            Some(_) => error,
+            None => error.context("the picture was written, but not its samples"),
+        });
+    }
+    if explain {
+        report.explain();
+    }
     context.report(&report, |out| report.print(args, out))
 }
 
@@ -83,10 +97,16 @@ fn overrides(args: &Render) -> Overrides {
 struct Traced {
     film: AnyFilm,
     stats: tracer::Stats,
+    /// Why the checkpoint does not hold them.
+    unsaved: Option<anyhow::Error>,
     seconds: f64,
     cpu_seconds: f64,
     interrupted: bool,
     rows: Vec<Row>,
+    /// What their estimates took.
+    rows_seconds: f64,
+    /// Of the whole, if the last pass ended.
+    estimate: Option<tracer::Estimate>,
     aimed: Option<Aimed>,
 }
 
@@ -94,12 +114,24 @@ fn write(
     built: &BuiltScene<AnyScene>,
     traced: &Traced,
     args: &Render,
-    build_seconds: f64,
+    clock: &mut Clock,
 ) -> Result<Report> {
-    let mut report = Report::new(built, traced, args, build_seconds);
-    if built.settings.shard.is_some() {
-        return Ok(report);
+    let mut report = Report::new(built, traced, args, clock.seconds.before());
+    clock.estimated();
+    if built.settings.shard.is_none() {
+        write_all(built, traced, args, &mut report)?;
+        clock.written();
     }
+    report.account(built, traced, clock.seconds);
+    Ok(report)
+}
+
+fn write_all(
+    built: &BuiltScene<AnyScene>,
+    traced: &Traced,
+    args: &Render,
+    report: &mut Report,
+) -> Result<()> {
     let mut picture = Picture::of_film(&traced.film.rgb())?;
     picture.metadata = Metadata {
         scene: Some(report.scene.clone()),
@@ -115,5 +147,5 @@ fn write(
     if let Some(map) = &args.error_map {
         error_map::write(map, &traced.film.rgb()).context("the picture was written")?;
     }
-    Ok(report)
+    Ok(())
 }

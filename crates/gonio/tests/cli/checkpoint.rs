@@ -262,3 +262,85 @@ fn slow_ten_kills_lose_nothing() {
         "other bits"
     );
 }
+
+/// Runs a command line that may write no file beyond `blocks` of 512 bytes: what a full disk is to a program.
+#[cfg(unix)]
+fn on_full_disk(bench: &Bench, line: &str, blocks: u32) -> (Option<i32>, String) {
+    let gonio = bench.command(line);
+    let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" \"$@\"");
+    let output = std::process::Command::new("sh")
+        .args(["-c", &script])
+        .arg(gonio.get_program())
+        .args(gonio.get_args())
+        .current_dir(bench.path(""))
+        .env("GONIO_CACHE", bench.path(".cache"))
+        .output()
+        .unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    (output.status.code(), said)
+}
+
+#[cfg(unix)]
+#[test]
+fn a_full_disk_costs_the_checkpoint_alone() {
+    let (bench, scene) = (Bench::new(), scene());
+    bench.text(&format!("{scene} --spp 64 -o whole.exr"));
+    bench.text(&format!("{scene} --spp 16 --checkpoint film -o part.exr"));
+    let before = (bench.read("film"), bench.files());
+    // the film takes 184 kB, the pictures less than 64 KiB
+    let line = format!("{scene} --spp 64 --checkpoint film -o part.exr --json");
+    let (code, said) = on_full_disk(&bench, &line, 128);
+    assert_eq!(code, Some(1), "{said}");
+    let last = said.lines().last().unwrap();
+    assert!(
+        last.starts_with(
+            "gonio: the picture was written, but not its samples: film: cannot write: "
+        ),
+        "{said}"
+    );
+    assert!(
+        bits(&bench, "whole.exr") == bits(&bench, "part.exr"),
+        "the picture has all samples"
+    );
+    assert_eq!(
+        (bench.read("film"), bench.files()),
+        before,
+        "the old checkpoint stays, and nothing else"
+    );
+    bench.text(&format!(
+        "{scene} --spp 64 --checkpoint film -o resumed.exr"
+    ));
+    assert!(
+        bits(&bench, "whole.exr") == bits(&bench, "resumed.exr"),
+        "other bits"
+    );
+
+    // not even the pictures fit
+    let (code, said) = on_full_disk(&bench, &line, 1);
+    assert_eq!(code, Some(1), "{said}");
+    let last = said.lines().last().unwrap();
+    assert!(
+        last.starts_with("gonio: part.exr: cannot write: "),
+        "{said}"
+    );
+    assert!(
+        bits(&bench, "whole.exr") == bits(&bench, "part.exr"),
+        "the old picture stays"
+    );
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_folder_that_may_not_be_written_is_known_before_rendering() {
+    let (bench, scene) = (Bench::new(), scene());
+    // nobody may make files there, not even root
+    let run = bench.run(&format!("{scene} --spp 100000 --checkpoint /proc/film"));
+    assert_eq!(run.code, 1, "{}", run.err);
+    assert_eq!(run.err.lines().count(), 1, "{}", run.err);
+    assert!(
+        run.err.starts_with("gonio: /proc/film: cannot write: "),
+        "{}",
+        run.err
+    );
+    assert!(bench.files().is_empty(), "{:?}", bench.files());
+}

@@ -23,6 +23,8 @@ mod golden;
 #[cfg(test)]
 mod help;
 #[cfg(test)]
+mod instructions;
+#[cfg(test)]
 mod interrupt;
 #[cfg(test)]
 mod output;

@@ -11,6 +11,7 @@ use brdf::Material;
 use spectrum::Basis;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::time::Instant;
 use tracer::Mode;
 
 /// Where each used material stands in the tracer's list.
@@ -23,6 +24,10 @@ pub struct MaterialReport {
     pub name: String,
     /// The file it was read from, if any.
     pub file: Option<PathBuf>,
+    /// Seconds it took to read it and make its table, and then its sampler.
+    pub seconds: [f64; 2],
+    /// Bytes of its table; its sampler's are its own.
+    pub table_bytes: usize,
     /// Its sampler.
     pub sampler: SamplerReport,
 }
@@ -70,7 +75,9 @@ fn one<const N: usize, P: Palette<N>>(
         ))
     })?;
     let default = file.render.sampler;
+    let start = Instant::now();
     let (surface, path) = surface::<P::Surface>(file, spec, places)?;
+    let read = start.elapsed().as_secs_f64();
     let sampler = match spec {
         MaterialSpec::File(FileMaterial { sampler, .. })
         | MaterialSpec::Model(ModelMaterial { sampler, .. })
@@ -83,6 +90,8 @@ fn one<const N: usize, P: Palette<N>>(
     let report = MaterialReport {
         name: name.to_owned(),
         file: path,
+        seconds: [read, start.elapsed().as_secs_f64() - read],
+        table_bytes: material.table_bytes(),
         sampler,
     };
     Ok((material, report))

@@ -5,13 +5,20 @@ use super::picture::{Metadata, Picture};
 use crate::error::Error;
 use crate::write;
 use exr::prelude::{
-    AnyChannel, AnyChannels, AttributeValue, Encoding, FlatSamples, Image, Layer, LayerAttributes,
-    Text, WritableImage,
+    AnyChannel, AnyChannels, AttributeValue, Blocks, Compression, Encoding, FlatSamples, Image,
+    Layer, LayerAttributes, LineOrder, Text, WritableImage,
 };
 use std::io;
 use std::path::Path;
 
-/// Writes `picture` atomically as one layer of 32-bit float channels, ZIP-compressed without loss.
+/// Lossless and quick: ZIP makes files a third smaller and takes as long as 16 samples a pixel.
+const ENCODING: Encoding = Encoding {
+    compression: Compression::RLE,
+    blocks: Blocks::ScanLines,
+    line_order: LineOrder::Increasing,
+};
+
+/// Writes `picture` atomically as one layer of 32-bit float channels, run-length encoded.
 ///
 /// # Errors
 /// If the counts of the picture contradict each other, or the file cannot be written.
@@ -46,7 +53,7 @@ pub(super) fn write(
     let layer = Layer::new(
         (picture.width, picture.height),
         attributes,
-        Encoding::SMALL_LOSSLESS,
+        ENCODING,
         AnyChannels::sort(channels.into_iter().collect()),
     );
     let image = Image::from_layer(layer);

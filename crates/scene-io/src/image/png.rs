@@ -6,6 +6,7 @@ use crate::error::Error;
 use crate::write;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
+use rayon::prelude::*;
 use spectrum::GamutReport;
 use std::io;
 use std::path::Path;
@@ -20,7 +21,8 @@ pub fn write_png(path: &Path, picture: &Picture, tone: ToneMap) -> Result<GamutR
         u32::try_from(n).map_err(|_| Error::invalid("expected a side below 2^32").in_file(path))
     };
     let (width, height) = (side(picture.width)?, side(picture.height)?);
-    let bytes: Vec<u8> = picture.pixels.iter().flat_map(|p| tone.show(*p)).collect();
+    let shown = picture.pixels.par_iter().map(|p| tone.show(*p));
+    let bytes = shown.collect::<Vec<_>>().into_flattened();
     write::atomically(path, |w| {
         PngEncoder::new(w)
             .write_image(&bytes, width, height, ExtendedColorType::Rgb8)

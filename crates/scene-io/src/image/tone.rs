@@ -1,7 +1,6 @@
 //! From scene-linear radiance to what a screen shows.
 
 use super::picture::Picture;
-use rayon::slice::ParallelSliceMut;
 use spectrum::{GamutMapping, GamutReport, LUMINANCE_SRGB, srgb_encode};
 
 /// One factor, then what becomes of colours out of gamut, then clamping to [0, 1], then the sRGB curve [Iec61966].
@@ -31,10 +30,9 @@ impl ToneMap {
             .map(|p| luminance(*p))
             .filter(|y| *y > 0.0 && y.is_finite())
             .collect();
-        lit.par_sort_unstable_by(f64::total_cmp);
         let rank = (PERCENTILE * lit.len() as f64) as usize;
-        let scale = match lit.get(rank.min(lit.len().saturating_sub(1))) {
-            Some(y) => TARGET / y,
+        let scale = match lit.len().checked_sub(1) {
+            Some(last) => TARGET / *lit.select_nth_unstable_by(rank.min(last), f64::total_cmp).1,
             None => 1.0,
         };
         Self {

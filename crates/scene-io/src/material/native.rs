@@ -4,7 +4,7 @@ use super::pair::{self, SamplerReport, Visitor};
 use crate::cache::{Cache, combine};
 use crate::error::Error;
 use crate::scene::SamplerName;
-use brdf::{Brdf, DirectionSampler, Material, Measured, Paired, Projected, Status};
+use brdf::{Brdf, Material, Measured, Paired, Projected, Status};
 use brdf_table::RglTable;
 use glam::DVec3;
 use std::sync::Arc;
@@ -62,7 +62,8 @@ impl Native {
         let brdf = self.brdf;
         match (name, self.sampler) {
             (SamplerName::Native, Some(sampler)) => {
-                let report = SamplerReport::new(SamplerName::Native, sampler.bytes());
+                // the table itself
+                let report = SamplerReport::new(SamplerName::Native, 0);
                 Ok((Box::new(Paired { brdf, sampler }), report))
             }
             _ => pair::pair(brdf, name, (|_: &_| self.key, cache)),

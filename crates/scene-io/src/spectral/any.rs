@@ -15,7 +15,9 @@ use std::borrow::Cow;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
-use tracer::{Film, Hero, LeftOut, Progress, Scene, Settings, Shard, Stats, Strategy, Trial};
+use tracer::{
+    Film, Hero, LeftOut, Progress, Scene, SceneBytes, Settings, Shard, Stats, Strategy, Trial,
+};
 
 /// A scene of `N` fixed channels that are not linear sRGB.
 #[derive(Debug)]
@@ -143,6 +145,16 @@ macro_rules! modes {
                 chosen.map_err(|e| Error::invalid(e.to_string()))
             }
 
+            /// [`Scene::bytes`].
+            #[must_use]
+            pub fn bytes(&self) -> SceneBytes {
+                match self {
+                    Self::Rgb(s) => s.bytes(),
+                    Self::Hero(s) => s.bytes(),
+                    $(Self::$name(s) => s.scene.bytes()),+
+                }
+            }
+
             /// [`Scene::left_out`].
             #[must_use]
             pub fn left_out(&self, settings: &Settings) -> Vec<LeftOut> {
@@ -161,6 +173,24 @@ macro_rules! modes {
                 match self {
                     Self::Rgb(film) => Cow::Borrowed(film),
                     $(Self::$name(f) => Cow::Owned(f.film.mapped(&f.rows()))),+
+                }
+            }
+
+            /// [`Film::samples`].
+            #[must_use]
+            pub fn samples(&self) -> u64 {
+                match self {
+                    Self::Rgb(film) => film.samples(),
+                    $(Self::$name(f) => f.film.samples()),+
+                }
+            }
+
+            /// [`Film::bytes`].
+            #[must_use]
+            pub fn bytes(&self) -> usize {
+                match self {
+                    Self::Rgb(film) => film.bytes(),
+                    $(Self::$name(f) => f.film.bytes()),+
                 }
             }
 

@@ -27,7 +27,10 @@ impl Lanes8 {
     pub(super) fn detect() -> Self {
         Self {
             #[cfg(target_arch = "x86_64")]
-            avx: pulp::core_arch::x86::Avx::try_new(),
+            avx: match brdf::arch() {
+                pulp::Arch::Scalar => None,
+                _ => pulp::core_arch::x86::Avx::try_new(),
+            },
         }
     }
 

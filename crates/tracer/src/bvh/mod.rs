@@ -8,11 +8,11 @@ mod traverse;
 mod tree;
 
 use crate::math::U;
-use crate::path::{HitLanes, NONE, RayLanes};
+use crate::path::{HitLanes, RayLanes};
 use crate::shape::{ShearedRay, Triangle};
 use block::{Block, WIDTH};
 use brdf::LANES;
-use glam::{Vec3, Vec3A};
+use glam::Vec3;
 use lanes::Lanes8;
 use obvhs::BvhBuildParams;
 use obvhs::bvh2::Bvh2;
@@ -50,8 +50,8 @@ pub(crate) struct TrianglePoint {
 
 impl Bvh {
     /// Builds over at least one triangle. Also returns the former index of every triangle in the new order,
-    /// [`NONE`] where a block has a lane to spare.
-    pub(crate) fn new(triangles: &[Triangle]) -> (Self, Vec<u32>) {
+    /// [`crate::path::NONE`] where a block has a lane to spare.
+    pub(crate) fn new(mut triangles: Vec<Triangle>) -> (Self, Vec<u32>) {
         let largest = triangles
             .iter()
             .flat_map(|t| t.corners)
@@ -60,21 +60,13 @@ impl Bvh {
         // both the power and its inverse stay normal numbers
         let exponent = largest.log2().floor().clamp(-125.0, 125.0);
         let (scale, unscale) = ((-exponent).exp2(), exponent.exp2());
-        let triangles: Vec<_> = triangles
-            .iter()
-            .map(|t| Triangle {
-                corners: t.corners.map(|c| c * scale),
-            })
-            .collect();
-        let binary = binary_tree(&triangles);
-        let boxes: Vec<_> = triangles.iter().map(bounds).collect();
-        let wide = Opener::open(&binary, &boxes);
-        let mut order = vec![NONE; wide.leaves.len() * WIDTH];
-        for (lanes, leaf) in order.chunks_exact_mut(WIDTH).zip(&wide.leaves) {
-            lanes[..leaf.len()].copy_from_slice(leaf);
+        for triangle in &mut triangles {
+            triangle.corners = triangle.corners.map(|c| c * scale);
         }
+        let wide = Opener::open(&binary_tree(&triangles), &triangles);
+        let member = |i: &u32| triangles.get(*i as usize).copied();
         let blocks: Vec<_> = (wide.leaves.iter())
-            .map(|leaf| Block::new(leaf.iter().map(|&i| triangles[i as usize])))
+            .map(|leaf| Block::new(leaf.iter().filter_map(member)))
             .collect();
         let bvh = Self {
             nodes: Pages::new(wide.nodes),
@@ -83,7 +75,12 @@ impl Bvh {
             scale,
             unscale,
         };
-        (bvh, order)
+        (bvh, wide.leaves.into_flattened())
+    }
+
+    /// Bytes of nodes and leaves.
+    pub(crate) fn bytes(&self) -> usize {
+        size_of_val(self.nodes.as_slice()) + size_of_val(self.blocks.as_slice())
     }
 
     /// Triangle `index`, scaled.
@@ -182,20 +179,16 @@ fn binary_tree(triangles: &[Triangle]) -> Bvh2 {
         params.sort_precision,
         params.search_depth_threshold,
     );
+    drop(boxed);
     ReinsertionOptimizer::default().run(&mut binary, params.reinsertion_batch_ratio, None);
     binary
-}
-
-/// Low and high corner of a triangle's box.
-fn bounds(triangle: &Triangle) -> [Vec3A; 2] {
-    let [a, b, c] = triangle.corners.map(Vec3A::from);
-    [a.min(b).min(c), a.max(b).max(c)]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::math::splat3;
+    use crate::path::NONE;
 
     /// Numbers in [-1, 1).
     fn numbers(seed: u64) -> impl FnMut() -> f32 {
@@ -227,7 +220,7 @@ mod tests {
     }
 
     fn agree_with_brute_force(triangles: &[Triangle], seed: u64) {
-        let (bvh, order) = Bvh::new(triangles);
+        let (bvh, order) = Bvh::new(triangles.to_vec());
         let mut taken: Vec<_> = order.iter().filter(|&&i| i != NONE).collect();
         taken.sort_unstable();
         assert!(

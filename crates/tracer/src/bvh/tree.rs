@@ -1,6 +1,8 @@
 //! The eight-wide tree: obvhs' binary tree, opened up.
 
 use super::block::WIDTH;
+use crate::path::NONE;
+use crate::shape::Triangle;
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec3, Vec3A};
 use obvhs::bvh2::Bvh2;
@@ -61,17 +63,16 @@ enum Part {
     Range(usize, usize),
 }
 
-/// Nodes, the root first, and for each leaf the triangles in its block.
+/// Nodes, the root first, and for each leaf the triangles in its block, [`NONE`] in lanes to spare.
 pub(super) struct Wide {
     pub(super) nodes: Vec<Node>,
-    pub(super) leaves: Vec<Vec<u32>>,
+    pub(super) leaves: Vec<[u32; WIDTH]>,
 }
 
 /// Opens the binary tree.
 pub(super) struct Opener<'a> {
     binary: &'a Bvh2,
-    /// Low and high corner of each triangle.
-    boxes: &'a [[Vec3A; 2]],
+    triangles: &'a [Triangle],
     /// Triangles below each node of the binary tree.
     counts: Vec<u32>,
     wide: Wide,
@@ -87,11 +88,11 @@ struct Task {
 }
 
 impl<'a> Opener<'a> {
-    /// `boxes` are those of the triangles that `binary` was built over, of which there is at least one.
-    pub(super) fn open(binary: &'a Bvh2, boxes: &'a [[Vec3A; 2]]) -> Wide {
+    /// `triangles` are those that `binary` was built over, of which there is at least one.
+    pub(super) fn open(binary: &'a Bvh2, triangles: &'a [Triangle]) -> Wide {
         let mut opener = Self {
             binary,
-            boxes,
+            triangles,
             counts: counts(binary),
             wide: Wide {
                 nodes: vec![Node::EMPTY],
@@ -116,7 +117,7 @@ impl<'a> Opener<'a> {
             Part::Binary(root) if task.level < DEEP => self.opened(root),
             Part::Binary(root) => {
                 let from = self.cut.len();
-                let triangles = self.triangles(root);
+                let triangles = self.below(root);
                 self.cut.extend(triangles);
                 eighths(from, self.cut.len())
             }
@@ -131,8 +132,8 @@ impl<'a> Opener<'a> {
             }
             if self.count(&part) <= WIDTH {
                 self.wide.nodes[task.node].child[slot] = LEAF | self.wide.leaves.len() as u32;
-                let members = self.members(&part);
-                self.wide.leaves.push(members);
+                let leaf = self.leaf(&part);
+                self.wide.leaves.push(leaf);
             } else {
                 let child = self.wide.nodes.len();
                 self.wide.nodes[task.node].child[slot] = child as u32;
@@ -175,7 +176,9 @@ impl<'a> Opener<'a> {
             }
             Part::Range(from, to) => {
                 let none = [Vec3A::INFINITY, Vec3A::NEG_INFINITY];
-                let boxes = self.cut[from..to].iter().map(|&i| self.boxes[i as usize]);
+                let boxes = self.cut[from..to]
+                    .iter()
+                    .map(|&i| bounds(&self.triangles[i as usize]));
                 boxes.fold(none, |a, b| [a[0].min(b[0]), a[1].max(b[1])])
             }
         }
@@ -188,15 +191,18 @@ impl<'a> Opener<'a> {
         }
     }
 
-    fn members(&self, part: &Part) -> Vec<u32> {
-        match *part {
-            Part::Binary(node) => self.triangles(node),
-            Part::Range(from, to) => self.cut[from..to].to_vec(),
-        }
+    fn leaf(&self, part: &Part) -> [u32; WIDTH] {
+        let members = match *part {
+            Part::Binary(node) => &self.below(node),
+            Part::Range(from, to) => &self.cut[from..to],
+        };
+        let mut leaf = [NONE; WIDTH];
+        leaf[..members.len()].copy_from_slice(members);
+        leaf
     }
 
     /// All triangles below a binary node.
-    fn triangles(&self, root: usize) -> Vec<u32> {
+    fn below(&self, root: usize) -> Vec<u32> {
         let mut found = Vec::new();
         let mut todo = vec![root];
         while let Some(i) = todo.pop() {
@@ -214,6 +220,12 @@ impl<'a> Opener<'a> {
         }
         found
     }
+}
+
+/// Low and high corner of a triangle's box.
+fn bounds(triangle: &Triangle) -> [Vec3A; 2] {
+    let [a, b, c] = triangle.corners.map(Vec3A::from);
+    [a.min(b).min(c), a.max(b).max(c)]
 }
 
 /// Triangles below each node.

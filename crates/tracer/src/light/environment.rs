@@ -47,7 +47,7 @@ pub(crate) struct ImageLight<E> {
 
 impl<E> ImageLight<E> {
     /// Builds the tables. `None` if the picture is nowhere bright.
-    pub(crate) fn new<const N: usize, T: Tag>(image: &EnvironmentImage<E>) -> Option<Self>
+    pub(crate) fn new<const N: usize, T: Tag>(image: EnvironmentImage<E>) -> Option<Self>
     where
         E: Emission<N, T>,
     {
@@ -57,15 +57,20 @@ impl<E> ImageLight<E> {
         let power: Vec<f64> = (0..w * h).map(|i| bright(i) * solid_angle(i)).collect();
         let total: f64 = power.iter().sum();
         let table = Piecewise2::constant(w, &power).ok()?;
+        let density = (0..w * h).map(|i| (bright(i) / total) as f32).collect();
         Some(Self {
             width: image.width,
             height: image.height,
-            pixels: image.pixels.clone(),
+            pixels: image.pixels,
             to_world: image.to_world.as_mat3(),
             to_local: image.to_world.transpose().as_mat3(),
             table,
-            density: (0..w * h).map(|i| (bright(i) / total) as f32).collect(),
+            density,
         })
+    }
+
+    pub(crate) fn bytes(&self) -> usize {
+        size_of_val(&self.pixels[..]) + size_of_val(&self.density[..]) + self.table.bytes()
     }
 
     /// Index of the pixel in direction `d`.

@@ -8,6 +8,7 @@ use crate::mode::Emission;
 use brdf::{LANES, Lanes3, Tag};
 use glam::Vec3;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// How a vertex chooses among lights.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -28,7 +29,7 @@ pub const MANY: usize = 16;
 /// The lights of a scene, and how one of them is chosen.
 #[derive(Clone, Debug)]
 pub(crate) struct Lights<E> {
-    pub(crate) lights: Vec<Light<E>>,
+    pub(crate) lights: Arc<[Light<E>]>,
     choice: Choice,
 }
 
@@ -47,7 +48,7 @@ enum Choice {
 #[derive(Clone, Debug)]
 struct Shares {
     probabilities: Vec<f32>,
-    /// Probabilities up to and with each.
+    /// Probabilities up to and with each; from the last that has one on, exactly 1.
     cdf: Vec<f32>,
 }
 
@@ -66,13 +67,16 @@ impl Shares {
         };
         let shares: Vec<f64> = powers.iter().map(share).collect();
         let mut sum = 0.0;
-        let cdf = shares
+        let mut cdf: Vec<f32> = shares
             .iter()
             .map(|p| {
                 sum += p;
                 sum as f32
             })
             .collect();
+        // a sum rounded below 1 would leave the numbers above it to whoever comes last, asked or not
+        let last = shares.iter().rposition(|p| *p > 0.0).unwrap_or(0);
+        cdf[last..].fill(1.0);
         Self {
             probabilities: shares.iter().map(|&p| p as f32).collect(),
             cdf,
@@ -81,8 +85,7 @@ impl Shares {
 
     #[inline]
     fn sample(&self, u: f32) -> usize {
-        let last = self.cdf.len() - 1;
-        self.cdf.partition_point(|&c| c <= u).min(last)
+        self.cdf.partition_point(|&c| c <= u)
     }
 
     /// What is left of `u` after the first was chosen.
@@ -96,7 +99,7 @@ impl Shares {
 impl<E> Lights<E> {
     /// From lights and their powers; a power of `None` keeps a light out of the choice.
     pub(crate) fn new(
-        lights: Vec<Light<E>>,
+        lights: Arc<[Light<E>]>,
         powers: &[Option<f64>],
         selection: LightSelection,
     ) -> Self {
@@ -265,5 +268,24 @@ fn bound<E>(emitter: &Emitter<E>, power: f64) -> Option<Bound> {
         Emitter::Triangles(light) => Some(light.bound(power)),
         Emitter::Point(p) => Some(Bound::all_around([*p; 2], around)),
         Emitter::Directional(_) | Emitter::Constant | Emitter::Image(_) => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Shares;
+
+    #[test]
+    fn what_is_kept_out_is_never_chosen() {
+        let largest = 1.0 - f32::EPSILON / 2.0;
+        for count in 2..400_u16 {
+            let power = |i: u16| (i > 0 && i <= count).then(|| 1.0 / f64::from(i).sqrt());
+            let powers: Vec<_> = (0..count + 2).map(power).collect();
+            let shares = Shares::new(&powers);
+            for u in [0.0, 0.5, largest] {
+                let chosen = shares.sample(u);
+                assert!(shares.probabilities[chosen] > 0.0, "{chosen} of {count}");
+            }
+        }
     }
 }

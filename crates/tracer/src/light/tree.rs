@@ -74,7 +74,7 @@ impl LightTree {
             nodes: Vec::new(),
             members: members.iter().map(|m| m.light).collect(),
             trails: vec![None; lights],
-            arch: pulp::Arch::new(),
+            arch: brdf::arch(),
         };
         tree.node(&mut members, 0, 0);
         Some(tree)

@@ -38,8 +38,9 @@ fn reported_error_is_the_distance_to_the_truth() {
     let truth = film(&scene, 16, 8, 4096, 1).mean();
     let square: f64 = truth.iter().map(|[v]| v * v).sum();
     for replicates in [4, 8, 16] {
-        let estimate = film(&scene, 16, replicates, 64, 2).estimate(0.99);
-        let error: f64 = (estimate.mean.iter().zip(&truth))
+        let film = film(&scene, 16, replicates, 64, 2);
+        let estimate = film.estimate(0.99);
+        let error: f64 = (film.mean().iter().zip(&truth))
             .map(|([a], [b])| (a - b) * (a - b))
             .sum();
         let actual = (error / square).sqrt();
@@ -112,17 +113,16 @@ fn coverage(scene: &Scene<1>, strategy: Strategy) -> Coverage {
         render(scene, &settings, &mut film, &()).unwrap();
         film
     };
-    let reference = make(1 << 15, 1).estimate(0.95);
+    let reference = make(1 << 15, 1).moments();
     let truth = &reference.mean;
     let own: f64 = reference.variance.iter().map(|[v]| v).sum();
     let square: f64 = truth.iter().map(|[v]| v * v).sum::<f64>() - own;
     let (mut inside, mut counted, mut squares) = (0.0, 0.0, 0.0);
-    let estimates: Vec<_> = (0..RENDERS)
-        .map(|seed| make(256, 100 + seed).estimate(0.95))
-        .collect();
-    for estimate in &estimates {
-        for (p, ([value], [exact])) in estimate.mean.iter().zip(truth).enumerate() {
-            let half = estimate.half_width(p, 0, 0.95);
+    let films: Vec<_> = (0..RENDERS).map(|seed| make(256, 100 + seed)).collect();
+    for film in &films {
+        let moments = film.moments();
+        for (p, ([value], [exact])) in moments.mean.iter().zip(truth).enumerate() {
+            let half = moments.half_width(p, 0, 0.95);
             counted += 1.0;
             inside += f64::from(u8::from((value - exact).abs() <= half));
             squares += (value - exact) * (value - exact);
@@ -131,7 +131,8 @@ fn coverage(scene: &Scene<1>, strategy: Strategy) -> Coverage {
     // what such a render errs by, known to 1 % by all of them together; the reference adds its own error to each
     let expected = squares / RENDERS as f64 - own;
     let [rmse, rel_rmse] = [truth.len() as f64, square].map(|over| (expected / over).sqrt());
-    let share = |held: &dyn Fn(&Estimate<1>) -> bool| {
+    let estimates: Vec<_> = films.iter().map(|f| f.estimate(0.95)).collect();
+    let share = |held: &dyn Fn(&Estimate) -> bool| {
         estimates.iter().filter(|e| held(e)).count() as f64 / RENDERS as f64
     };
     let within = |[low, high]: [f64; 2], value: f64| low <= value && value <= high;

@@ -11,12 +11,12 @@ const SIDE: u32 = 1000;
 /// Writes the relative standard error of each pixel: the root of its summed variances over the root of its summed
 /// squared values; grey where the pixel is black or its error unknown.
 pub(super) fn write<const N: usize>(path: &Path, film: &Film<N>) -> Result<()> {
-    let estimate = film.estimate(scene_io::rows::CONFIDENCE);
+    let moments = film.moments();
     let relative = |(mean, variance): (&[f64; N], &[f64; N])| {
         let square: f64 = mean.iter().map(|m| m * m).sum();
         (variance.iter().sum::<f64>() / square).sqrt()
     };
-    let top_down: Vec<f64> = (estimate.mean.iter().zip(&estimate.variance))
+    let top_down: Vec<f64> = (moments.mean.iter().zip(&moments.variance))
         .map(relative)
         .collect();
     let columns = film.width() as usize;

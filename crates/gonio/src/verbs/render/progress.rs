@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
-use tracer::{Film, Progress};
+use tracer::{Estimate, Film, Progress};
 
 /// Watches a render: a bar with the time left on a terminal, a line every tenth elsewhere; Ctrl-C ends it after the
 /// tiles at hand.
@@ -25,6 +25,10 @@ pub(super) struct Watch {
     cpu: f64,
     /// The rows, and what went wrong writing them.
     rows: Mutex<(Recorder, Option<scene_io::Error>)>,
+    /// Nanoseconds their estimates took.
+    estimating: AtomicU64,
+    /// The last of them, and the samples of the film it is of.
+    last: Mutex<Option<(u64, Estimate)>>,
     /// How long to render before a pause, and since when.
     every: Duration,
     since: Mutex<Instant>,
@@ -61,6 +65,8 @@ impl Watch {
             start: Instant::now(),
             cpu: process::cpu_seconds(),
             rows: Mutex::new((recorder, None)),
+            estimating: AtomicU64::new(0),
+            last: Mutex::new(None),
             every: Duration::MAX,
             since: Mutex::new(Instant::now()),
         })
@@ -126,6 +132,17 @@ impl Watch {
         ]
     }
 
+    /// The estimate of a film of so many samples in all, if it was made.
+    pub(super) fn estimate(&self, samples: u64) -> Option<Estimate> {
+        let last = *self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        last.filter(|(of, _)| *of == samples).map(|last| last.1)
+    }
+
+    /// Seconds that estimates for rows have taken.
+    pub(super) fn estimating(&self) -> f64 {
+        self.estimating.load(Ordering::Relaxed) as f64 * 1e-9
+    }
+
     pub(super) fn interrupted(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }
@@ -152,8 +169,14 @@ impl<const N: usize> Progress<N> for Watch {
         if film.spp() == 0 {
             return ControlFlow::Continue(());
         }
+        let start = Instant::now();
+        let estimate = film.estimate(CONFIDENCE);
+        let took = start.elapsed().as_nanos() as u64;
+        self.estimating.fetch_add(took, Ordering::Relaxed);
+        *self.last.lock().unwrap_or_else(PoisonError::into_inner) =
+            Some((film.samples(), estimate));
         let mut rows = self.rows.lock().unwrap_or_else(PoisonError::into_inner);
-        match rows.0.push(seconds, film.spp(), &film.estimate(CONFIDENCE)) {
+        match rows.0.push(seconds, film.spp(), &estimate) {
             Ok(()) => ControlFlow::Continue(()),
             Err(error) => {
                 rows.1 = Some(error);

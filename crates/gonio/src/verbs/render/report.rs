@@ -1,5 +1,6 @@
 //! What a render says of itself.
 
+use super::account::{self, MaterialRow, Memory, Seconds};
 use super::trace::Aimed;
 use super::{Render, Traced, strategy};
 use crate::output::say;
@@ -8,6 +9,7 @@ use scene_io::BuiltScene;
 use scene_io::rows::{CONFIDENCE, Row};
 use scene_io::spectral::AnyScene;
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::fmt::{self, Write};
 use std::path::PathBuf;
 
@@ -77,6 +79,12 @@ pub(super) struct Report {
     target: Option<TargetJson>,
     rows: Vec<RowJson>,
     left_out: Vec<String>,
+    /// Instruction set everything wide ran with.
+    instructions: &'static str,
+    materials: Vec<MaterialRow>,
+    stages: Seconds,
+    thread_seconds: BTreeMap<&'static str, f64>,
+    memory: Option<Memory>,
     /// Of the PNG; nothing where none is written.
     pub(super) gamut: Option<Gamut>,
     interrupted: bool,
@@ -89,15 +97,15 @@ impl Report {
         args: &Render,
         build_seconds: f64,
     ) -> Self {
-        let film = traced.film.rgb();
-        let estimate = film.estimate(CONFIDENCE);
+        let whole = || traced.film.rgb().estimate(CONFIDENCE);
+        let estimate = traced.estimate.unwrap_or_else(whole);
         let known = estimate.rel_rmse.is_finite();
         Self {
             written: written(built, args),
             scene: built.file.path.display().to_string(),
             sampler: sampler(built),
             spectrum: built.file.render.spectrum.name(),
-            spp: film.samples() / u64::from(built.size.0 * built.size.1).max(1),
+            spp: traced.film.samples() / u64::from(built.size.0 * built.size.1).max(1),
             seconds: traced.seconds,
             cpu_seconds: traced.cpu_seconds,
             build_seconds,
@@ -110,8 +118,42 @@ impl Report {
             target: traced.aimed.as_ref().map(TargetJson::from),
             rows: traced.rows.iter().map(RowJson::from).collect(),
             left_out: left_out(built),
+            instructions: brdf::instructions(),
+            materials: account::materials(built),
+            stages: Seconds::default(),
+            thread_seconds: account::threads(traced),
+            memory: None,
             gamut: None,
             interrupted: traced.interrupted,
+        }
+    }
+
+    /// What it took, once all is done.
+    pub(super) fn account(
+        &mut self,
+        built: &BuiltScene<AnyScene>,
+        traced: &Traced,
+        seconds: Seconds,
+    ) {
+        self.stages = seconds;
+        self.memory = Some(Memory::new(built, traced));
+    }
+
+    /// Where time and memory went.
+    pub(super) fn explain(&self) {
+        say(format_args!("instructions: {}", self.instructions));
+        self.stages.explain();
+        let threads = self.thread_seconds.iter();
+        let all: f64 = threads.clone().map(|(_, t)| t).sum();
+        let parts: Vec<String> = threads
+            .map(|(name, t)| format!("{name} {:.0} %", 100.0 * t / all.max(1e-9)))
+            .collect();
+        say(format_args!(
+            "of {all:.3} s of all threads: {}",
+            parts.join(", ")
+        ));
+        if let Some(memory) = &self.memory {
+            memory.explain();
         }
     }
 
@@ -220,8 +262,13 @@ pub(super) fn explain(built: &BuiltScene<AnyScene>, build_seconds: f64) {
             .unwrap_or_default();
         let s = &material.sampler;
         say(format_args!(
-            "  material {}{file}: sampler {}, {} bytes, {:.3} s",
-            material.name, s.name, s.bytes, s.build_seconds
+            "  material {}{file}: table {} bytes, {:.3} s; sampler {}, {} bytes, {:.3} s",
+            material.name,
+            material.table_bytes,
+            material.seconds[0],
+            s.name,
+            s.bytes,
+            material.seconds[1]
         ));
         for note in &s.notes {
             say(format_args!("    {note}"));

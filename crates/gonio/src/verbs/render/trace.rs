@@ -56,41 +56,53 @@ pub(super) fn trace(
         watch.pause_every(keeper.every);
     }
     watch.restart();
-    let stats = match args.time {
-        Some(seconds) => until(built, &mut film, &watch, seconds)?,
+    let (stats, unsaved) = match args.time {
+        Some(seconds) => (until(built, &mut film, &watch, seconds)?, None),
         None => samples(built, &mut film, &watch, keeper.as_ref())?,
     };
     let [seconds, cpu_seconds] = watch.seconds();
     let interrupted = watch.interrupted();
+    let rows_seconds = watch.estimating();
+    let estimate = watch.estimate(film.samples());
     Ok(Traced {
         film,
         stats,
+        unsaved,
         seconds,
         cpu_seconds,
         interrupted,
         aimed,
+        rows_seconds,
+        estimate,
         rows: watch.finish()?,
     })
 }
 
-/// All samples that were asked for, with pauses to keep what there is.
+/// All samples that were asked for, with pauses to keep what there is; and why the last of them could not be kept, if
+/// so: a full disk ends no render.
 fn samples(
     built: &BuiltScene<AnyScene>,
     film: &mut AnyFilm,
     watch: &Watch,
     keeper: Option<&Keeper>,
-) -> Result<Stats> {
+) -> Result<(Stats, Option<anyhow::Error>)> {
     let settings = &built.settings;
     watch.expect(left(&film.rgb(), settings));
     let mut stats = Stats::default();
+    let (mut unsaved, mut told) = (None, false);
     loop {
         stats += built.scene.render(settings, film, watch)?;
+        let done = least(&film.rgb(), settings.shard) >= settings.spp || watch.ended();
         if let Some(keeper) = keeper {
-            keeper.save(film)?;
+            unsaved = keeper.save(film).err();
+            if let Some(error) = unsaved.as_ref().filter(|_| !done && !told) {
+                told = true;
+                say(format_args!("note: {error:#}; rendering goes on"));
+            }
             watch.resume();
         }
-        if least(&film.rgb(), settings.shard) >= settings.spp || watch.ended() {
-            return Ok(stats);
+        if done {
+            return Ok((stats, unsaved));
         }
     }
 }

@@ -92,6 +92,10 @@ struct HeroMeasured {
 }
 
 impl TaggedBrdf<HERO, Rotation> for HeroMeasured {
+    fn table_bytes(&self) -> usize {
+        self.measured.table_bytes() + size_of_val(&self.tables[..])
+    }
+
     fn eval_tagged(
         &self,
         wi: &Lanes3,
