@@ -15,6 +15,7 @@ mod codegen;
 mod compare;
 mod curet;
 mod fixtures;
+mod inner_loop;
 mod interpolation;
 mod model_plots;
 mod ngan;
@@ -34,6 +35,7 @@ cargo xtask tidy          the repository's own rules
 cargo xtask fixtures      make data-fixtures/ again; --check: compare only
 cargo xtask codegen       make the generated tables again; --check: compare only
 cargo xtask interpolation cross-validate the interpolants on Cornell files
+cargo xtask inner-loop    whether RGB scenes pay for the spectral code, in machine code
 cargo xtask model-plots   polar plots of all models, into docs/images/models
 cargo xtask curet         rough diffuse models fitted to CUReT
 cargo xtask ngan DIR      our fits against the published ones, on a folder of MERL files
@@ -63,6 +65,7 @@ fn run(args: &[String]) -> Result<()> {
         Some("interpolation") => interpolation::run(rest),
         Some("model-plots") => model_plots::run(),
         Some("curet") => curet::run(),
+        Some("inner-loop") => inner_loop::run(),
         Some("compare") => compare::run(rest),
         Some("ngan") => ngan::run(rest),
         Some("render-all") => render_all::run(rest),

@@ -98,7 +98,10 @@ impl<E> ImageLight<E> {
     }
 
     /// A direction, its density and the radiance from there.
-    #[inline]
+    ///
+    /// Never inlined: a search that most scenes lack, and whether it stood in the loop would depend on how many kinds of
+    /// channels a program has.
+    #[inline(never)]
     pub(crate) fn sample(&self, u: f32, v: f32) -> (Vec3, f32, &E) {
         let (at, _) = self.table.sample(DVec2::new(f64::from(u), f64::from(v)));
         let (column, row) = (at.x * f64::from(self.width), at.y * f64::from(self.height));
