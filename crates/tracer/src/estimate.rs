@@ -176,8 +176,8 @@ fn mean_and_variance<const N: usize>(counts: &Counts, sums: &[[f64; N]]) -> ([f6
 struct Spread {
     /// Of V.
     alone: f64,
-    /// Of V and T in V / T. What both have in common is taken off either: 2 / nu_V + 2 / nu_T is then the relative variance of
-    /// the ratio.
+    /// Of V and T in V / T. What both have in common is taken off either in proportion: 2 / nu_V + 2 / nu_T is then the
+    /// relative variance of the ratio.
     relative: [f64; 2],
     /// Degrees of freedom of Student's t: how well Var(V) is known itself.
     certainty: u32,
@@ -198,10 +198,11 @@ impl Spread {
         // between one degree and as many as there are values; NaN where V is 0
         let bounded = |x: f64| x.max(least).min(2.0);
         let of_v = pairs.spread() / (v * v);
-        let (common, of_t) = (pairs.cov / (v * t), pairs.var_t / (t * t));
+        let (common, of_t) = (pairs.cov / (v * t), (pairs.var_t / (t * t)).max(0.0));
+        let apart = 1.0 - 2.0 * common / (of_v + of_t);
         Self {
             alone: bounded(of_v),
-            relative: [bounded(of_v - common), (of_t - common).max(0.0)],
+            relative: [bounded(apart * of_v), (apart * of_t).max(0.0)],
             certainty: pairs.degrees(),
         }
     }
