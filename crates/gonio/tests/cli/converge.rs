@@ -84,7 +84,7 @@ fn a_method_has_the_variance_of_its_copy() {
     let at = |c: usize, k: usize| {
         let p = &curves[c]["points"][k];
         let [low, high] = *numbers(&p["ci"]).first_chunk::<2>().unwrap();
-        // half the interval in the logarithm, over Student's t of 11 degrees
+        // half the interval in the logarithm, over Student's t of 11 degrees [Abramowitz1964, table 26.10]
         (
             p["rel_rmse"].as_f64().unwrap().ln(),
             (high / low).ln() / (2.0 * 2.201),

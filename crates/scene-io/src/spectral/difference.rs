@@ -173,6 +173,7 @@ mod tests {
 
     const LOOK: Look = Look {
         exposure: 1.0,
+        // D65 by [Lindbloom]; any white would do
         white: [0.95047, 1.0, 1.08883],
     };
 
