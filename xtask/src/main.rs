@@ -15,13 +15,16 @@ mod codegen;
 mod compare;
 mod curet;
 mod fixtures;
+mod gonio;
 mod inner_loop;
 mod interpolation;
+mod memory;
 mod model_plots;
 mod ngan;
 mod process;
 mod render_all;
 mod repo;
+mod savings;
 mod test;
 mod tidy;
 
@@ -40,6 +43,8 @@ cargo xtask model-plots   polar plots of all models, into docs/images/models
 cargo xtask curet         rough diffuse models fitted to CUReT
 cargo xtask ngan DIR      our fits against the published ones, on a folder of MERL files
 cargo xtask compare       time to 1 % error beside another renderer
+cargo xtask memory        bytes by arithmetic beside those seen, scene by scene
+cargo xtask savings       what each thing that is left out would cost
 cargo xtask render-all    all scenes their data allow, with a contact sheet; see --help
 ";
 
@@ -68,6 +73,8 @@ fn run(args: &[String]) -> Result<()> {
         Some("inner-loop") => inner_loop::run(),
         Some("compare") => compare::run(rest),
         Some("ngan") => ngan::run(rest),
+        Some("memory") => memory::run(rest),
+        Some("savings") => savings::run(),
         Some("render-all") => render_all::run(rest),
         Some("help" | "--help" | "-h") => {
             print!("{HELP}");

@@ -2,23 +2,28 @@
 
 mod page;
 
-use crate::{process, repo};
+use crate::repo;
 use anyhow::{Context, Result, bail};
 use page::{Entry, Outcome};
 use scene_io::scene::MaterialSpec;
 use scene_io::{DataDirs, ErrorKind, SceneFile};
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::time::Instant;
 
 const HELP: &str = "\
-cargo xtask render-all [--quick] [--data DIR]... [-o DIR]
+cargo xtask render-all [--quick] [--only NAME] [--spp N] [--data DIR]... [-o DIR]
   --quick     a quarter of the width and height, 32 samples a pixel
+  --only NAME the scenes whose names begin so: --only thesis for the ten of chapter 6
+  --spp N     other samples a pixel than the scenes say
   --data DIR  where measured files are (also GONIO_DATA)
   -o DIR      output folder (default: out/render-all)
 ";
 
 struct Options {
     quick: bool,
+    only: String,
+    spp: Option<String>,
     data: Vec<PathBuf>,
     output: PathBuf,
 }
@@ -28,7 +33,7 @@ pub(crate) fn run(args: &[String]) -> Result<()> {
         print!("{HELP}");
         return Ok(());
     };
-    process::run("cargo", &["build", "--release", "--package", "gonio"])?;
+    crate::gonio::build()?;
     std::fs::create_dir_all(&options.output)
         .with_context(|| options.output.display().to_string())?;
     let mut entries = Vec::new();
@@ -36,6 +41,9 @@ pub(crate) fn run(args: &[String]) -> Result<()> {
         let name = repo::shown(path.parent().unwrap_or(&path))
             .trim_start_matches("scenes/")
             .replace('/', "-");
+        if !name.starts_with(&options.only) {
+            continue;
+        }
         let entry = Entry {
             outcome: one(&options, &path, &name)?,
             name,
@@ -45,13 +53,12 @@ pub(crate) fn run(args: &[String]) -> Result<()> {
     }
     let index = options.output.join("index.html");
     std::fs::write(&index, page::html(&entries)).with_context(|| index.display().to_string())?;
-    let rendered = entries
-        .iter()
-        .filter(|e| matches!(e.outcome, Outcome::Rendered { .. }))
-        .count();
+    let seconds: Vec<f64> = entries.iter().filter_map(|e| e.outcome.seconds()).collect();
     println!(
-        "rendered {rendered} of {} scenes; see {}",
+        "rendered {} of {} scenes in {:.0} s; see {}",
+        seconds.len(),
         entries.len(),
+        seconds.iter().sum::<f64>(),
         index.display()
     );
     match entries
@@ -66,6 +73,8 @@ pub(crate) fn run(args: &[String]) -> Result<()> {
 fn parse(args: &[String]) -> Result<Option<Options>> {
     let mut options = Options {
         quick: false,
+        only: String::new(),
+        spp: None,
         data: Vec::new(),
         output: repo::root().join("out/render-all"),
     };
@@ -74,15 +83,16 @@ fn parse(args: &[String]) -> Result<Option<Options>> {
         .extend(std::env::var_os("GONIO_DATA").map(PathBuf::from));
     let mut args = args.iter();
     while let Some(arg) = args.next() {
-        let mut folder = || {
-            args.next()
-                .map(PathBuf::from)
-                .with_context(|| format!("{arg} wants a folder"))
+        let mut value = || {
+            let value = args.next().cloned();
+            value.with_context(|| format!("{arg} wants a value"))
         };
         match arg.as_str() {
             "--quick" => options.quick = true,
-            "--data" => options.data.push(folder()?),
-            "-o" => options.output = folder()?,
+            "--only" => options.only = value()?,
+            "--spp" => options.spp = Some(value()?),
+            "--data" => options.data.push(value()?.into()),
+            "-o" => options.output = value()?.into(),
             "--help" | "-h" => return Ok(None),
             other => bail!("unknown option {other:?}\n{HELP}"),
         }
@@ -126,18 +136,16 @@ fn one(options: &Options, scene: &Path, name: &str) -> Result<Outcome> {
         .arg(&picture)
         .arg(scene);
     if options.quick {
-        command.args([
-            "--spp",
-            "32",
-            "--size",
-            &format!(
-                "{}x{}",
-                file.film.width.div_ceil(4),
-                file.film.height.div_ceil(4)
-            ),
-        ]);
+        let [w, h] = [file.film.width, file.film.height].map(|n| n.div_ceil(4));
+        command.args(["--size", &format!("{w}x{h}")]);
     }
+    let quick = options.quick.then_some("32");
+    if let Some(spp) = options.spp.as_deref().or(quick) {
+        command.args(["--spp", spp]);
+    }
+    let start = Instant::now();
     let output = command.output().context("cannot start gonio")?;
+    let seconds = start.elapsed().as_secs_f64();
     if !output.status.success() {
         return Ok(Outcome::Failed(
             String::from_utf8_lossy(&output.stderr).trim().to_owned(),
@@ -162,15 +170,14 @@ fn one(options: &Options, scene: &Path, name: &str) -> Result<Outcome> {
     Ok(Outcome::Rendered {
         about: file.about.clone(),
         report,
+        seconds,
         plots,
     })
 }
 
 /// The program built above, told where the data are.
 fn gonio(options: &Options) -> Command {
-    let target = std::env::var_os("CARGO_TARGET_DIR")
-        .map_or_else(|| repo::root().join("target"), PathBuf::from);
-    let mut command = Command::new(target.join("release").join("gonio"));
+    let mut command = crate::gonio::command();
     for folder in &options.data {
         command.arg("--data").arg(folder);
     }

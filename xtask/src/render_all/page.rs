@@ -13,6 +13,8 @@ pub(super) enum Outcome {
     Rendered {
         about: String,
         report: Value,
+        /// From the start of the program to its end.
+        seconds: f64,
         plots: Vec<String>,
     },
     /// Its data are not there.
@@ -20,11 +22,23 @@ pub(super) enum Outcome {
     Failed(String),
 }
 
+impl Outcome {
+    /// What a picture took in all.
+    pub(super) fn seconds(&self) -> Option<f64> {
+        match self {
+            Self::Rendered { seconds, .. } => Some(*seconds),
+            Self::Skipped(_) | Self::Failed(_) => None,
+        }
+    }
+}
+
 impl Entry {
     /// One line for the terminal.
     pub(super) fn line(&self) -> String {
         match &self.outcome {
-            Outcome::Rendered { report, .. } => format!("{}: {}", self.name, facts(report)),
+            Outcome::Rendered {
+                report, seconds, ..
+            } => format!("{}: {}", self.name, facts(report, *seconds)),
             Outcome::Skipped(why) => format!("{}: skipped, {why}", self.name),
             Outcome::Failed(why) => format!("{}: FAILED, {why}", self.name),
         }
@@ -32,11 +46,11 @@ impl Entry {
 }
 
 /// Seconds, samples and error of a render.
-fn facts(report: &Value) -> String {
+fn facts(report: &Value, seconds: f64) -> String {
     let number = |key: &str| report[key].as_f64().unwrap_or(f64::NAN);
     let ci = |k: usize| report["rel_rmse_ci"][k].as_f64().unwrap_or(f64::NAN);
     format!(
-        "{:.1} s, {} spp, {:.2} M paths/s, sampler {}, relative RMSE {:.2} % (95 %: {:.2} to {:.2} %)",
+        "{seconds:.1} s in all, {:.1} s tracing, {} spp, {:.2} M paths/s, sampler {}, relative RMSE {:.2} % (95 %: {:.2} to {:.2} %)",
         number("seconds"),
         number("spp"),
         number("paths_per_second") / 1e6,
@@ -67,6 +81,7 @@ pub(super) fn html(entries: &[Entry]) -> String {
             Outcome::Rendered {
                 about,
                 report,
+                seconds,
                 plots,
             } => {
                 let plots: String = plots
@@ -76,7 +91,7 @@ pub(super) fn html(entries: &[Entry]) -> String {
                 format!(
                     "<p>{}</p><p>{}</p><img src=\"{name}.png\" alt=\"{name}\">{plots}",
                     escaped(about),
-                    escaped(&facts(report)),
+                    escaped(&facts(report, *seconds)),
                     name = escaped(&entry.name)
                 )
             }
