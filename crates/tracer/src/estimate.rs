@@ -115,22 +115,76 @@ impl Default for Sums {
     }
 }
 
+/// Pixels at a time.
+const WIDE: usize = 8;
+
+/// The sums of a tile, to be compiled for each instruction set.
+struct OfTile<'a, const N: usize>(&'a Tile<N>);
+
+impl<const N: usize> pulp::WithSimd for OfTile<'_, N> {
+    type Output = Sums;
+
+    #[inline(always)]
+    fn with_simd<I: pulp::Simd>(self, _: I) -> Sums {
+        Sums::of_tile(self.0)
+    }
+}
+
 impl Sums {
     fn of<const N: usize>(tile: &Tile<N>) -> Self {
+        brdf::arch().dispatch(OfTile(tile))
+    }
+
+    #[inline(always)]
+    fn of_tile<const N: usize>(tile: &Tile<N>) -> Self {
         let counts = tile.counts();
+        let degrees = counts.used.len() as f64 - 1.0;
+        let (inverse, scale) = (
+            1.0 / counts.samples.max(1.0),
+            1.0 / (degrees * counts.samples),
+        );
+        let zero = [0.0; WIDE];
         let mut sums = Self::default();
-        let mut means = vec![[0.0; N]; counts.used.len()];
-        for pixel in tile.by_pixel() {
-            for (mean, &(r, _, inverse)) in means.iter_mut().zip(&counts.used) {
-                *mean = pixel[r].map(|s| s * inverse);
+        let mut means = vec![[zero; N]; counts.used.len()];
+        let (mut square, mut error) = (zero, zero);
+        let (all, stride) = (tile.sums(), tile.replicates() as usize);
+        for first in (0..all.len()).step_by(stride * WIDE) {
+            let pixels = WIDE.min((all.len() - first) / stride);
+            let mut mean = [zero; N];
+            for (own, &(r, _, over)) in means.iter_mut().zip(&counts.used) {
+                for k in 0..pixels {
+                    let sum = &all[first + k * stride + r];
+                    for c in 0..N {
+                        mean[c][k] += sum[c] * inverse;
+                        own[c][k] = sum[c] * over;
+                    }
+                }
+                // lanes to spare hold zeros, which add nothing
+                for k in pixels..WIDE {
+                    for c in 0..N {
+                        own[c][k] = 0.0;
+                    }
+                }
             }
-            let (mean, variance) = mean_and_variance(&counts, pixel);
-            sums = sums.and(Self {
-                square: mean.iter().map(|x| x * x).sum(),
-                error: variance.iter().sum(),
-                pairs: Pairs::of(&means),
-            });
+            for c in 0..N {
+                for k in 0..WIDE {
+                    square[k] += mean[c][k] * mean[c][k];
+                }
+                for (own, &(_, n, _)) in means.iter().zip(&counts.used) {
+                    for k in 0..WIDE {
+                        let off = own[c][k] - mean[c][k];
+                        error[k] += n * off * off * scale;
+                    }
+                }
+            }
+            sums.pairs = (sums.pairs.zip(Pairs::of(&means))).map(|(a, b)| a.and(b));
         }
+        sums.square = square.iter().sum();
+        sums.error = if counts.used.len() < 2 {
+            f64::INFINITY
+        } else {
+            error.iter().sum()
+        };
         sums
     }
 

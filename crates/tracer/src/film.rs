@@ -245,6 +245,10 @@ impl<const N: usize> Tile<N> {
         &self.sums
     }
 
+    pub(crate) fn replicates(&self) -> u32 {
+        self.replicates
+    }
+
     /// How many samples a pixel replicate `r` holds.
     #[must_use]
     pub fn samples_of(&self, r: u32) -> u32 {

@@ -19,25 +19,29 @@ pub(crate) struct Pairs {
 }
 
 impl Pairs {
-    /// Of one pixel, from the means of its replicates; `None` below four of them.
-    pub(crate) fn of<const N: usize>(means: &[[f64; N]]) -> Option<Self> {
+    /// Sum over `W` pixels of what the means of their replicates say (replicate, channel, pixel); `None` below four replicates.
+    /// A pixel of zeros adds nothing.
+    #[inline(always)]
+    pub(crate) fn of<const N: usize, const W: usize>(means: &[[[f64; W]; N]]) -> Option<Self> {
         if means.len() < 4 {
             return None;
         }
         let moments = Moments::of(means);
-        // D lacks its 1 / R so far
         let r = moments.n;
-        let [var_v, cov, var_t] = moments.covariances();
-        let v = moments.a / (r * (r - 1.0));
-        let normal = 2.0 * v * v / (r + 1.0);
-        let var_v = var_v / (r * r);
-        Some(Self {
-            var_v,
-            cov: cov / r,
-            var_t,
-            normal,
-            excess: (var_v - normal) * (var_v - normal),
-        })
+        let (mut all, over) = (Self::default(), 1.0 / (r * r));
+        for k in 0..W {
+            // D lacks its 1 / R so far
+            let [var_v, cov, var_t] = moments.covariances(k);
+            let v = moments.a[k] / (r * (r - 1.0));
+            let normal = 2.0 * v * v / (r + 1.0);
+            let var_v = var_v * over;
+            all.var_v += var_v;
+            all.cov += cov / r;
+            all.var_t += var_t;
+            all.normal += normal;
+            all.excess += (var_v - normal) * (var_v - normal);
+        }
+        Some(all)
     }
 
     pub(crate) fn and(self, other: Self) -> Self {
@@ -66,75 +70,81 @@ impl Pairs {
 }
 
 /// Sums over replicates that all sums over pairs come down to, of a_i = |y_i|^2 and b_i = m . y_i, where m is the mean of the
-/// replicates and the y_i = x_i - m sum to zero.
-struct Moments {
+/// replicates and the y_i = x_i - m sum to zero; for `W` pixels at a time.
+struct Moments<const W: usize> {
     n: f64,
-    a: f64,
-    aa: f64,
-    ab: f64,
-    bb: f64,
+    a: [f64; W],
+    aa: [f64; W],
+    ab: [f64; W],
+    bb: [f64; W],
     /// Sum over i and j of p_ij^2, p_ij = y_i . y_j: as much as the squares of all entries of sum_i y_i y_i^T.
-    pp: f64,
+    pp: [f64; W],
 }
 
-impl Moments {
-    fn of<const N: usize>(x: &[[f64; N]]) -> Self {
-        let n = x.len() as f64;
-        let mut m = [0.0; N];
+impl<const W: usize> Moments<W> {
+    #[inline(always)]
+    fn of<const N: usize>(x: &[[[f64; W]; N]]) -> Self {
+        let zero = [0.0; W];
+        let mut out = Self {
+            n: x.len() as f64,
+            a: zero,
+            aa: zero,
+            ab: zero,
+            bb: zero,
+            pp: zero,
+        };
+        let over = 1.0 / out.n;
+        let (mut m, mut gram) = ([zero; N], [[zero; N]; N]);
         for x in x {
             for c in 0..N {
-                m[c] += x[c];
-            }
-        }
-        let m = m.map(|sum| sum / n);
-        let (mut sums, mut gram) = ([0.0; 4], [[0.0; N]; N]);
-        for x in x {
-            let (mut a, mut b, mut y) = (0.0, 0.0, [0.0; N]);
-            for c in 0..N {
-                y[c] = x[c] - m[c];
-                a += y[c] * y[c];
-                b += m[c] * y[c];
-            }
-            for (sum, term) in sums.iter_mut().zip([a, a * a, a * b, b * b]) {
-                *sum += term;
-            }
-            for c in 0..N {
-                for d in 0..=c {
-                    gram[c][d] += y[c] * y[d];
+                for k in 0..W {
+                    m[c][k] += x[c][k] * over;
                 }
             }
         }
-        let [a, aa, ab, bb] = sums;
-        let mut pp = 0.0;
-        for c in 0..N {
-            pp += gram[c][c] * gram[c][c];
-            for d in 0..c {
-                pp += 2.0 * gram[c][d] * gram[c][d];
+        for x in x {
+            let (mut a, mut b, mut y) = (zero, zero, [zero; N]);
+            for c in 0..N {
+                for k in 0..W {
+                    y[c][k] = x[c][k] - m[c][k];
+                    a[k] += y[c][k] * y[c][k];
+                    b[k] += m[c][k] * y[c][k];
+                }
+            }
+            for k in 0..W {
+                out.a[k] += a[k];
+                out.aa[k] += a[k] * a[k];
+                out.ab[k] += a[k] * b[k];
+                out.bb[k] += b[k] * b[k];
+            }
+            for c in 0..N {
+                for d in 0..=c {
+                    for k in 0..W {
+                        gram[c][d][k] += y[c][k] * y[d][k];
+                    }
+                }
             }
         }
-        Self {
-            n,
-            a,
-            aa,
-            ab,
-            bb,
-            pp,
+        for c in 0..N {
+            for d in 0..=c {
+                // entries beside the diagonal count twice
+                let times = if c == d { 1.0 } else { 2.0 };
+                for k in 0..W {
+                    out.pp[k] += times * gram[c][d][k] * gram[c][d][k];
+                }
+            }
         }
+        out
     }
 
     /// U(A) U(B) less the mean of A_ij B_kl over disjoint pairs, for AB = DD, DG and GG.
     ///
     /// R D_ij = (a_i + a_j) / 2 - p_ij and G_ij = |m|^2 + b_i + b_j + p_ij, whose constant changes no covariance and is left
     /// out. Since sum_j p_ij = sum_j b_j = 0, every sum below is one over replicates.
-    fn covariances(&self) -> [f64; 3] {
-        let &Self {
-            n,
-            a,
-            aa,
-            ab,
-            bb,
-            pp,
-        } = self;
+    #[inline(always)]
+    fn covariances(&self, k: usize) -> [f64; 3] {
+        let (n, a, aa) = (self.n, self.a[k], self.aa[k]);
+        let (ab, bb, pp) = (self.ab[k], self.bb[k], self.pp[k]);
         // over all pairs
         let (d, g) = (0.5 * n * a, -0.5 * a);
         let products = [d * d, d * g, g * g];
@@ -152,9 +162,11 @@ impl Moments {
         ];
         let pairs = n * (n - 1.0) / 2.0;
         let apart = pairs * (n - 2.0) * (n - 3.0) / 2.0;
-        std::array::from_fn(|k| {
-            products[k] / (pairs * pairs) - (products[k] - with[k] + same[k]) / apart
-        })
+        let mut out = [0.0; 3];
+        for f in 0..3 {
+            out[f] = products[f] / (pairs * pairs) - (products[f] - with[f] + same[f]) / apart;
+        }
+        out
     }
 }
 
@@ -198,7 +210,7 @@ mod tests {
         let (mut sums, mut products) = ([0.0; 2], [0.0; 3]);
         for _ in 0..runs {
             let x: [[f64; 2]; R] = std::array::from_fn(|_| draw());
-            let pairs = Pairs::of(&x).unwrap();
+            let pairs = Pairs::of(&x.map(|x| x.map(|v| [v]))).unwrap();
             for (k, value) in [pairs.var_v, pairs.cov, pairs.var_t]
                 .into_iter()
                 .enumerate()
@@ -299,7 +311,9 @@ mod tests {
             let x: Vec<[f64; 3]> = (0..r)
                 .map(|_| std::array::from_fn(|c| c as f64 + rng.uniform()))
                 .collect();
-            let found = Pairs::of(&x).unwrap();
+            // a pixel of zeros beside it
+            let lanes: Vec<_> = x.iter().map(|x| x.map(|v| [0.0, v])).collect();
+            let found = Pairs::of(&lanes).unwrap();
             let found = [found.var_v, found.cov, found.var_t];
             for (found, expected) in found.into_iter().zip(by_pairs(&x)) {
                 // of terms of size 1 to 100
@@ -313,7 +327,7 @@ mod tests {
 
     #[test]
     fn three_replicates_say_nothing() {
-        assert!(Pairs::of(&[[1.0], [2.0], [4.0]]).is_none());
+        assert!(Pairs::of(&[[[1.0]], [[2.0]], [[4.0]]]).is_none());
     }
 
     #[test]
