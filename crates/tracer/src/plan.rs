@@ -30,7 +30,7 @@ pub enum LeftOut {
 
 impl fmt::Display for LeftOut {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
+        let what = match self {
             Self::Triangles => "triangles: no tree is built or walked",
             Self::ShadingNormals => "shading normals: no test for leaking light",
             Self::Environment => "environment: rays that leave the scene end at once",
@@ -39,7 +39,25 @@ impl fmt::Display for LeftOut {
             Self::LightTree => "light tree: with few lights each vertex chooses by power",
             Self::Roulette => "roulette: no path ends by chance",
             Self::Filter => "pixel filter: samples are even over the pixel",
-        })
+        };
+        write!(f, "{what} (with it {:.2} times the time)", self.cost())
+    }
+}
+
+impl LeftOut {
+    /// What the time of a path of the benchmark scene would be multiplied by, were it there: measured by
+    /// `cargo xtask savings` (docs/performance.md).
+    #[must_use]
+    pub fn cost(self) -> f64 {
+        match self {
+            Self::Triangles => 1.57,
+            Self::ShadingNormals | Self::Roulette => 1.0,
+            Self::Environment => 1.11,
+            Self::Lights => 1.40,
+            Self::LightChoice => 1.79,
+            Self::LightTree => 1.96,
+            Self::Filter => 1.05,
+        }
     }
 }
 

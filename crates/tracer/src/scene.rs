@@ -139,7 +139,13 @@ pub struct SceneBytes {
     pub triangles: usize,
     /// A picture around the scene with its sampling tables.
     pub environment: usize,
+    /// What triangles took while the scene was built: gone since.
+    pub building: usize,
 }
+
+/// Bytes a triangle at the most while a scene is built, measured (docs/performance.md): the mesh as it was read, corners,
+/// normals, boxes, the binary tree and its builder's copies.
+const BUILDING: usize = 366;
 
 impl<const N: usize, S: Mode<N>> std::fmt::Debug for Scene<N, S> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -190,6 +196,7 @@ impl<const N: usize, S: Mode<N>> Scene<N, S> {
                 + size_of_val(&geometry.triangles[..])
                 + size_of_val(&geometry.normals[..]),
             environment: pictures.sum(),
+            building: BUILDING * self.triangles(),
         }
     }
 

@@ -194,6 +194,24 @@ macro_rules! modes {
                 }
             }
 
+            /// Channels of a pixel.
+            #[must_use]
+            pub fn channels(&self) -> usize {
+                match self {
+                    Self::Rgb(_) => 3,
+                    $(Self::$name(_) => $n),+
+                }
+            }
+
+            /// Bytes of what [`Self::rgb`] makes: none where it only shows what is there.
+            #[must_use]
+            pub fn twin_bytes(&self) -> usize {
+                match self {
+                    Self::Rgb(_) => 0,
+                    $(Self::$name(f) => f.film.bytes() / $n * 3),+
+                }
+            }
+
             /// The mean spectral radiance of bins and bands; `None` for a film of colours.
             #[must_use]
             pub fn spectral(&self) -> Option<SpectralPicture> {

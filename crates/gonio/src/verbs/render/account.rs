@@ -155,9 +155,11 @@ pub(super) struct Memory {
     environment: usize,
     /// Buffers of the workers.
     workers: usize,
+    /// What was needed to build trees, before there was a film.
+    building: usize,
     /// The program itself.
     program: usize,
-    /// All of these.
+    /// All that is there at once, while it renders or while it is built.
     sum: usize,
     /// The largest resident size so far, where the system says.
     peak: Option<u64>,
@@ -166,8 +168,11 @@ pub(super) struct Memory {
 /// Resident before anything is loaded: code, the runtime, thread stacks. Measured.
 const PROGRAM: usize = 14 << 20;
 
-/// A picture in f32, its variances, nine planes of the EXR and one of errors on its way into them.
+/// Of a pixel on its way to files: colour and variance in f32, nine planes of the EXR and errors on their way into them.
 const PICTURE_BYTES: usize = 12 + 12 + 36 + 12;
+
+/// The same of a film of other channels than linear sRGB: its means in f64 and planes in f32.
+const CHANNEL_BYTES: usize = 8 + 4;
 
 impl Memory {
     /// Says where memory went.
@@ -177,7 +182,7 @@ impl Memory {
             format!(", seen {:.1}", peak as f64 / 1e6)
         });
         say(format_args!(
-            "memory, MB: film {:.1}, pictures {:.1}, tables {:.1}, samplers {:.1}, triangles {:.1}, environment {:.1}, workers {:.1}, program {:.1}, in all {:.1}{peak}",
+            "memory, MB: film {:.1}, pictures {:.1}, tables {:.1}, samplers {:.1}, triangles {:.1}, environment {:.1}, workers {:.1}, program {:.1}, at first to build {:.1}, in all {:.1}{peak}",
             mb(self.film),
             mb(self.pictures),
             mb(self.tables),
@@ -186,6 +191,7 @@ impl Memory {
             mb(self.environment),
             mb(self.workers),
             mb(self.program),
+            mb(self.building),
             mb(self.sum)
         ));
     }
@@ -193,26 +199,31 @@ impl Memory {
     pub(super) fn new(built: &BuiltScene<AnyScene>, traced: &Traced) -> Self {
         let scene = built.scene.bytes();
         let pixels = built.size.0 as usize * built.size.1 as usize;
+        // a film of other channels has a twin in linear sRGB, for the estimates and the PNG
+        let (film, twin) = (traced.film.bytes(), traced.film.twin_bytes());
+        let own = match twin {
+            0 => 0,
+            twin => twin + traced.film.channels() * pixels * CHANNEL_BYTES,
+        };
         let mut memory = Self {
-            film: traced.film.bytes(),
-            pictures: PICTURE_BYTES * pixels,
+            film,
+            pictures: PICTURE_BYTES * pixels + own,
             tables: built.materials.iter().map(|m| m.table_bytes).sum(),
             samplers: built.materials.iter().map(|m| m.sampler.bytes).sum(),
             triangles: scene.triangles,
             environment: scene.environment,
             workers: traced.stats.buffers as usize,
+            building: scene.building,
             program: PROGRAM,
             sum: 0,
             peak: process::peak_bytes(),
         };
-        memory.sum = memory.film
-            + memory.pictures
-            + memory.tables
+        let rendering = memory.film + memory.pictures + memory.triangles + memory.workers;
+        memory.sum = memory.tables
             + memory.samplers
-            + memory.triangles
             + memory.environment
-            + memory.workers
-            + memory.program;
+            + memory.program
+            + rendering.max(memory.building);
         memory
     }
 }
