@@ -1,4 +1,4 @@
-//! `cargo xtask codegen [--check]`: the generated tables of the spectrum crate, from the numbers in `xtask/data/`.
+//! `cargo xtask codegen [--check]`: the generated tables, from the numbers in `xtask/data/`.
 //!
 //! The linear uplift is solved with the CIE tables the program was built with: after a change of theirs, run it
 //! twice (`--check` tells).
@@ -6,23 +6,31 @@
 mod cie;
 mod linear_uplift;
 mod quadratic;
+mod substances;
 mod table;
 
 use crate::repo;
 use anyhow::{Context, Result, bail};
 
-/// A generated file: its name below `crates/spectrum/src/generated/`, and what makes it.
+/// A generated file below `crates/`, and what makes it.
 type Generated = (&'static str, fn() -> Result<String>);
 
 const FILES: &[Generated] = &[
-    ("cie_1931_2deg.rs", || {
+    ("spectrum/src/generated/cie_1931_2deg.rs", || {
         cie::observer("cie_1931_2deg", "CIE 1931 standard observer (2 degree)")
     }),
-    ("cie_1964_10deg.rs", || {
+    ("spectrum/src/generated/cie_1964_10deg.rs", || {
         cie::observer("cie_1964_10deg", "CIE 1964 standard observer (10 degree)")
     }),
-    ("illuminants.rs", cie::illuminants),
-    ("linear_uplift.rs", linear_uplift::generate),
+    ("spectrum/src/generated/illuminants.rs", cie::illuminants),
+    (
+        "spectrum/src/generated/linear_uplift.rs",
+        linear_uplift::generate,
+    ),
+    (
+        "brdf-models/src/generated/substances.rs",
+        substances::generate,
+    ),
 ];
 
 pub(crate) fn run(args: &[String]) -> Result<()> {
@@ -32,9 +40,7 @@ pub(crate) fn run(args: &[String]) -> Result<()> {
         _ => bail!("usage: cargo xtask codegen [--check]"),
     };
     for (name, generate) in FILES {
-        let path = repo::root()
-            .join("crates/spectrum/src/generated")
-            .join(name);
+        let path = repo::root().join("crates").join(name);
         let text = generate().with_context(|| (*name).to_owned())?;
         if check {
             if repo::read(&path)? != text {

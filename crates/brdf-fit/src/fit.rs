@@ -1,6 +1,7 @@
 //! A fit from start to end: many starts on few data, the best few on more, the best one on all.
 
 use brdf::Brdf;
+use nalgebra::DMatrix;
 use rayon::prelude::*;
 use std::time::Instant;
 
@@ -121,8 +122,11 @@ pub fn fit(family: &dyn Family, data: &FitData) -> Result<Fit, FitError> {
         model: family.name().into(),
     })?;
     let restart = all.solve(&best.u, Some(&best.weights));
-    let point = descend(&all, restart, LAST_LIMITS);
-    Ok(report(&all, &point, start.elapsed().as_secs_f64()))
+    let (point, normal) = descend(&all, restart, LAST_LIMITS);
+    let normal = normal.unwrap_or_else(|| all.normal(&point));
+    let covariance = covariance(&all, &point, &normal);
+    let seconds = start.elapsed().as_secs_f64();
+    Ok(report(&all, &point, &covariance, seconds))
 }
 
 /// Fits several families to the same data, in parallel; `done` is told of each as it ends, from any thread.
@@ -148,23 +152,20 @@ fn search<'a>(
     let first = on(&data.stages[0]);
     let mut found: Vec<Point> = starts(first.family)
         .into_par_iter()
-        .map(|u| descend(&first, first.solve(&u, None), FIRST_LIMITS))
+        .map(|u| descend(&first, first.solve(&u, None), FIRST_LIMITS).0)
         .collect();
     found.retain(|p| p.cost.is_finite());
     found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     let second = on(&data.stages[1]);
     let mut better: Vec<Point> = distinct(found, SECOND)
         .into_par_iter()
-        .map(|p| descend(&second, second.solve(&p.u, Some(&p.weights)), SECOND_LIMITS))
+        .map(|p| descend(&second, second.solve(&p.u, Some(&p.weights)), SECOND_LIMITS).0)
         .collect();
     better.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     let best = better.into_iter().next()?;
     let third = on(&data.stages[2]);
-    Some(descend(
-        &third,
-        third.solve(&best.u, Some(&best.weights)),
-        THIRD_LIMITS,
-    ))
+    let start = third.solve(&best.u, Some(&best.weights));
+    Some(descend(&third, start, THIRD_LIMITS).0)
 }
 
 /// The first `count` points that are not where an earlier one is already.
@@ -214,10 +215,8 @@ fn starts(family: &dyn Family) -> Vec<Vec<f64>> {
 }
 
 /// Error, parameters and intervals at the end of a fit.
-fn report(problem: &Problem<'_>, point: &Point, seconds: f64) -> Fit {
+fn report(problem: &Problem<'_>, point: &Point, covariance: &DMatrix<f64>, seconds: f64) -> Fit {
     let family = problem.family;
-    let normal = problem.normal(point, true);
-    let covariance = covariance(problem, point, &normal);
     let shape = problem.shape_at(&point.u);
     let deviation = |k: usize| covariance[(k, k)].sqrt();
     let mut estimates: Vec<Estimate> = (family.shape().iter().enumerate())

@@ -22,8 +22,12 @@ const FIRST_DAMPING: f64 = 1e-2;
 /// Damping at which no step is worth trying any more.
 const LAST_DAMPING: f64 = 1e8;
 
-/// Descends from `start`; the result is never worse.
-pub(crate) fn descend(problem: &Problem<'_>, start: Point, limits: Limits) -> Point {
+/// Descends from `start`; the result is never worse. With it come its normal equations, if it ended knowing them.
+pub(crate) fn descend(
+    problem: &Problem<'_>,
+    start: Point,
+    limits: Limits,
+) -> (Point, Option<Normal>) {
     let bounds = problem.bounds();
     let mut point = start;
     let mut damping = FIRST_DAMPING;
@@ -31,9 +35,14 @@ pub(crate) fn descend(problem: &Problem<'_>, start: Point, limits: Limits) -> Po
         if bounds.is_empty() || point.cost <= 0.0 {
             break;
         }
-        let reduced = Reduced::new(&problem.normal(&point, false), &point, &bounds);
+        let normal = problem.normal(&point);
+        let reduced = Reduced::new(&normal, &point, &bounds);
+        // what a whole step would gain is not worth taking it
+        if reduced.promise() <= limits.tolerance * point.cost {
+            return (point, Some(normal));
+        }
         let Some((better, next)) = step(problem, &point, &reduced, damping) else {
-            break;
+            return (point, Some(normal));
         };
         let gained = point.cost - better.cost;
         let done = gained <= limits.tolerance * point.cost;
@@ -43,7 +52,7 @@ pub(crate) fn descend(problem: &Problem<'_>, start: Point, limits: Limits) -> Po
             break;
         }
     }
-    point
+    (point, None)
 }
 
 /// Raises the damping until a step lowers the cost; the new point and the damping to go on with.
@@ -102,6 +111,16 @@ impl Reduced {
             gradient,
             free,
         }
+    }
+
+    /// The decrease of the cost that an undamped step promises, g^T A^-1 g; infinite where there is none.
+    fn promise(&self) -> f64 {
+        let free: Vec<usize> = (0..self.free.len()).filter(|&j| self.free[j]).collect();
+        let a = DMatrix::from_fn(free.len(), free.len(), |i, j| {
+            self.matrix[(free[i], free[j])]
+        });
+        let g = DVector::from_fn(free.len(), |i, _| self.gradient[free[i]]);
+        a.cholesky().map_or(f64::INFINITY, |a| a.solve(&g).dot(&g))
     }
 
     /// The damped step, at most two in any variable: beyond that the linearisation says nothing.

@@ -42,29 +42,61 @@ pub(crate) struct Point {
     pub(crate) cost: f64,
 }
 
-/// J^T J, J^T r and the meat J^T diag(r^2) J of one point, unknowns in the order: shape, weights of channel 0, 1, ...
+/// J^T J and J^T r of one point, unknowns in the order: shape, weights of channel 0, 1, ...
 #[derive(Clone, Debug)]
 pub(crate) struct Normal {
     pub(crate) jtj: DMatrix<f64>,
     pub(crate) jtr: DVector<f64>,
-    /// Empty unless asked for.
-    pub(crate) meat: DMatrix<f64>,
 }
 
 impl Normal {
-    fn zeros(n: usize, with_meat: bool) -> Self {
-        let m = if with_meat { n } else { 0 };
+    fn zeros(n: usize) -> Self {
         Self {
             jtj: DMatrix::zeros(n, n),
             jtr: DVector::zeros(n),
-            meat: DMatrix::zeros(m, m),
+        }
+    }
+}
+
+/// The rows of the weighted Jacobian that belong to one pair of directions, a channel each.
+pub(crate) struct PairRows {
+    /// Derivatives by the shape, then by the weights of the channel itself, times the root of the pair's weight.
+    pub(crate) rows: Vec<Vec<f64>>,
+    /// Residuals, likewise.
+    pub(crate) residuals: Vec<f64>,
+    shapes: usize,
+    weights: usize,
+}
+
+impl PairRows {
+    fn new(shapes: usize, weights: usize, channels: usize) -> Self {
+        Self {
+            rows: vec![vec![0.0; shapes + weights]; channels],
+            residuals: vec![0.0; channels],
+            shapes,
+            weights,
         }
     }
 
-    fn add(&mut self, other: &Self) {
-        self.jtj += &other.jtj;
-        self.jtr += &other.jtr;
-        self.meat += &other.meat;
+    /// Which unknown entry `i` of the row of a channel belongs to.
+    #[inline]
+    pub(crate) fn unknown(&self, channel: usize, i: usize) -> usize {
+        if i < self.shapes {
+            i
+        } else {
+            i + channel * self.weights
+        }
+    }
+
+    /// J^T r into `g`, for these residuals.
+    #[inline]
+    pub(crate) fn pull(&self, residuals: &[f64], g: &mut DVector<f64>) {
+        g.fill(0.0);
+        for (c, (row, r)) in self.rows.iter().zip(residuals).enumerate() {
+            for (i, value) in row.iter().enumerate() {
+                g[self.unknown(c, i)] += value * r;
+            }
+        }
     }
 }
 
@@ -285,9 +317,46 @@ impl<'a> Problem<'a> {
         sums.iter().sum()
     }
 
-    /// Normal equations at a point; derivatives by shape are forward differences of the lobes. The meat costs as much
-    /// again and is made only if asked for.
-    pub(crate) fn normal(&self, point: &Point, with_meat: bool) -> Normal {
+    /// Normal equations at a point.
+    pub(crate) fn normal(&self, point: &Point) -> Normal {
+        let (p, n) = (self.family.shape().len(), self.family.weights().len());
+        let (q, channels) = (p + n, self.samples.channels());
+        // J^T J by rows and J^T r of one channel after the other
+        let each = |sums: &mut Vec<f64>, pair: &PairRows| {
+            let of_channels = sums.chunks_exact_mut(q * (q + 1));
+            for ((row, r), sums) in pair.rows.iter().zip(&pair.residuals).zip(of_channels) {
+                let (squares, right) = sums.split_at_mut(q * q);
+                for ((u, squares), right) in row.iter().zip(squares.chunks_exact_mut(q)).zip(right)
+                {
+                    *right += u * r;
+                    squares.iter_mut().zip(row).for_each(|(s, v)| *s += u * v);
+                }
+            }
+        };
+        let empty = || vec![0.0; channels * q * (q + 1)];
+        let unknown = |c: usize, i: usize| if i < p { i } else { i + c * n };
+        let mut sum = Normal::zeros(self.unknowns());
+        for block in self.by_pair(point, empty, each) {
+            for (c, sums) in block.chunks_exact(q * (q + 1)).enumerate() {
+                for i in 0..q {
+                    sum.jtr[unknown(c, i)] += sums[q * q + i];
+                    for j in 0..q {
+                        sum.jtj[(unknown(c, i), unknown(c, j))] += sums[i * q + j];
+                    }
+                }
+            }
+        }
+        sum
+    }
+
+    /// Shows the Jacobian and the residuals at a point, pair by pair, to `each`; what it makes of every block, in order.
+    /// Derivatives by shape are forward differences of the lobes.
+    pub(crate) fn by_pair<T: Send>(
+        &self,
+        point: &Point,
+        empty: impl Fn() -> T + Sync + Send,
+        each: impl Fn(&mut T, &PairRows) + Sync + Send,
+    ) -> Vec<T> {
         let p = self.family.shape().len();
         let steps = self.steps(&point.u);
         let base = self.family.lobes(&self.shape_at(&point.u));
@@ -303,68 +372,49 @@ impl<'a> Problem<'a> {
             .iter()
             .map(|w| coefficients(self.family, w))
             .collect();
-        let blocks = self.each_block(|block| {
+        self.each_block(|block| {
             let mut tables = vec![Vec::new(); p + 1];
             self.eval_block(&*base, block, &mut tables[p]);
             for (moved, table) in moved.iter().zip(&mut tables) {
                 self.eval_block(&**moved, block, table);
             }
-            let mut sum = Normal::zeros(self.unknowns(), with_meat);
-            self.normal_block(block, &tables, (&steps, &channels), &mut sum);
-            sum
-        });
-        let mut sum = Normal::zeros(self.unknowns(), with_meat);
-        blocks.iter().for_each(|b| sum.add(b));
-        sum.jtj.fill_upper_triangle_with_lower_triangle();
-        sum.meat.fill_upper_triangle_with_lower_triangle();
-        sum
+            let mut out = empty();
+            self.pairs_of(block, &tables, (&steps, &channels), |pair| {
+                each(&mut out, pair);
+            });
+            out
+        })
     }
 
-    fn normal_block(
+    fn pairs_of(
         &self,
         block: usize,
         tables: &[Vec<f64>],
         (steps, channels): (&[f64], &[Factors]),
-        sum: &mut Normal,
+        mut each: impl FnMut(&PairRows),
     ) {
         let (k, n, p) = (
             self.family.lobe_count(),
             self.family.weights().len(),
             steps.len(),
         );
-        // the unknowns one residual depends on: the shape and its own channel's weights
-        let mut row = vec![0.0; p + n];
-        let mut pulled = vec![0.0; sum.meat.nrows()];
+        let mut pair = PairRows::new(p, n, channels.len());
         for (s, (w, ci, y)) in self.rows(block).enumerate() {
             let at = |t: usize| &tables[t][s * k..(s + 1) * k];
-            let lobes = at(p);
-            pulled.fill(0.0);
+            let (lobes, root) = (at(p), w.sqrt());
             for (c, (coefficients, by_weight)) in channels.iter().enumerate() {
                 let m = dot(coefficients, lobes);
                 let (r, slope) = self.metric.residual(y[c], m, ci);
+                let row = &mut pair.rows[c];
                 for j in 0..p {
-                    row[j] = slope * (dot(coefficients, at(j)) - m) / steps[j];
+                    row[j] = root * slope * (dot(coefficients, at(j)) - m) / steps[j];
                 }
                 for j in 0..n {
-                    row[p + j] = slope * dot(by_weight.column(j).as_slice(), lobes);
+                    row[p + j] = root * slope * dot(by_weight.column(j).as_slice(), lobes);
                 }
-                let index = |i: usize| if i < p { i } else { i + c * n };
-                for i in 0..p + n {
-                    let wr = w * row[i];
-                    sum.jtr[index(i)] += wr * r;
-                    if let Some(pulled) = pulled.get_mut(index(i)) {
-                        *pulled += wr * r;
-                    }
-                    for j in 0..=i {
-                        sum.jtj[(index(i), index(j))] += wr * row[j];
-                    }
-                }
+                pair.residuals[c] = root * r;
             }
-            for i in 0..pulled.len() {
-                for j in 0..=i {
-                    sum.meat[(i, j)] += pulled[i] * pulled[j];
-                }
-            }
+            each(&pair);
         }
     }
 

@@ -13,7 +13,7 @@ fn merl(c: &mut Criterion) {
     ));
     for text in [
         "lambert",
-        "ggx:alpha=0.1,n=cu,k=cu",
+        "ggx:alpha=0.1,index=cu",
         "ward:alpha=0.1",
         "cook-torrance:m=0.2,f0=0.05",
     ] {
@@ -31,7 +31,7 @@ fn merl(c: &mut Criterion) {
             });
         });
     }
-    let Ok(model) = parse_model("ggx:alpha=0.1,n=cu,k=cu") else {
+    let Ok(model) = parse_model("ggx:alpha=0.1,index=cu") else {
         return;
     };
     let noisy = Instrument {

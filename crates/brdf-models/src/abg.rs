@@ -8,7 +8,7 @@ use crate::half::above;
 use crate::lobe::{ONE_MINUS, SpecularLobe, combine, share};
 use crate::power_law::{ln_power, power_mass};
 use crate::registry::{Built, Laws, ModelInfo, Parameter, Values};
-use crate::shift_invariant::{direction_at, distance2, total_integrated_scatter};
+use crate::shift_invariant::{Radial, ShiftedLobe, distance2, total_integrated_scatter};
 
 /// f = kd/pi + A/(B + |beta - beta0|^g).
 ///
@@ -86,7 +86,9 @@ impl Broken {
             whole: flat + slope,
         }
     }
+}
 
+impl Radial for Broken {
     #[inline]
     fn radius(&self, u: f64) -> f64 {
         let v = u * self.whole;
@@ -115,11 +117,12 @@ impl<const N: usize> Abg<N> {
     /// Total integrated scatter of light from `wo` per channel, without the Lambert lobe, to about 1e-4.
     #[must_use]
     pub fn tis(&self, wo: DVec3) -> [f64; N] {
-        let lobe = Self {
-            diffuse: [0.0; N],
-            ..*self
-        };
-        total_integrated_scatter(&lobe, wo)
+        total_integrated_scatter(self, &self.diffuse, wo)
+    }
+
+    #[inline]
+    fn lobe(&self) -> ShiftedLobe<Broken, 1> {
+        ShiftedLobe([Broken::new(self.b, self.g)])
     }
 
     /// The lobe without its weight.
@@ -153,12 +156,12 @@ impl<const N: usize> SpecularLobe for Abg<N> {
 
     #[inline]
     fn sample_lobe(&self, wo: DVec3, u: DVec2) -> DVec3 {
-        direction_at(wo, Broken::new(self.b, self.g).radius(u.x), u.y)
+        self.lobe().sample(wo, u)
     }
 
     #[inline]
     fn lobe_pdf(&self, wi: DVec3, wo: DVec3) -> f64 {
-        Broken::new(self.b, self.g).density(distance2(wi, wo)) * wi.z
+        self.lobe().pdf(wi, wo)
     }
 }
 

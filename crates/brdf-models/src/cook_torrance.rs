@@ -49,6 +49,7 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
         microfacet::F0,
         microfacet::N,
         microfacet::K,
+        microfacet::INDEX,
         Parameter::weight("ks", "weight of the lobe", 1.0),
         Parameter::base("kd", "albedo of the Lambert lobe", 0.0),
     ],
@@ -57,7 +58,7 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
         ..Laws::KEPT
     },
     examples: &[
-        "m=0.2,n=cu,k=cu",
+        "m=0.2,index=cu",
         "m=0.6,f0=0.05,ks=0.5,kd=0.5/0.3/0.1",
         "m=0.03",
         "m=1",

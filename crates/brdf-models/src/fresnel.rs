@@ -5,23 +5,38 @@ use brdf::LANES;
 /// Complex refractive indices n + ik relative to the outside, one a channel.
 ///
 /// k = 0 is a dielectric. An infinite n is a perfect mirror (reflectance 1 at every angle).
+///
+/// A channel as wide as a primary of RGB sees many indices at once: it loses what a [`Mix`] of three of them loses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fresnel<const N: usize> {
     n: [f64; N],
     k: [f64; N],
+    /// `None`: every channel has its own index.
+    mix: Option<[Mix; N]>,
 }
+
+/// What a channel takes of the losses 1 - F of the channel before it, its own and the one after it, in a circle.
+/// Channels of colours may take negative shares, and reflect more than 1.
+pub type Mix = [f64; 3];
 
 impl<const N: usize> Fresnel<N> {
     /// Reflects everything at every angle: the Fresnel term switched off.
-    pub const ONE: Self = Self {
-        n: [f64::INFINITY; N],
-        k: [0.0; N],
-    };
+    pub const ONE: Self = Self::from_index([f64::INFINITY; N], [0.0; N]);
 
     /// Index n + ik per channel, n > 0, k >= 0.
     #[must_use]
     pub const fn from_index(n: [f64; N], k: [f64; N]) -> Self {
-        Self { n, k }
+        Self { n, k, mix: None }
+    }
+
+    /// Indices n + ik of which the channels see mixtures, 1 - `F_c` = sum of the shares times 1 - F.
+    #[must_use]
+    pub const fn mixed(n: [f64; N], k: [f64; N], mix: [Mix; N]) -> Self {
+        Self {
+            n,
+            k,
+            mix: Some(mix),
+        }
     }
 
     /// The dielectric that reflects `f0` at normal incidence: n = (1 + sqrt f0) / (1 - sqrt f0)
@@ -36,7 +51,7 @@ impl<const N: usize> Fresnel<N> {
                 f64::INFINITY
             }
         });
-        Self { n, k: [0.0; N] }
+        Self::from_index(n, [0.0; N])
     }
 
     /// Reflectance per channel at the cosine `c` of the angle of incidence, [0, 1].
@@ -52,28 +67,53 @@ impl<const N: usize> Fresnel<N> {
     #[inline]
     #[must_use]
     pub fn eval_at(&self, c: f64, sin2: f64) -> [f64; N] {
-        std::array::from_fn(|i| unpolarised(self.n[i], self.k[i], [c, sin2]))
+        let own = std::array::from_fn(|i| unpolarised(self.n[i], self.k[i], [c, sin2]));
+        let Some(mix) = &self.mix else {
+            return own;
+        };
+        std::array::from_fn(|i| {
+            let of = neighbours(i, N);
+            1.0 - (0..3).map(|j| mix[i][j] * (1.0 - own[of[j]])).sum::<f64>()
+        })
     }
 
-    /// [`Self::eval_at`] of one channel for a packet of cosines and squared sines.
+    /// [`Self::eval_at`] for a packet of cosines and squared sines.
     #[inline(always)]
-    pub(crate) fn eval_lanes(
-        &self,
-        channel: usize,
-        c: &[f32; LANES],
-        sin2: &[f32; LANES],
-    ) -> [f32; LANES] {
+    pub(crate) fn eval_lanes(&self, c: &[f32; LANES], sin2: &[f32; LANES]) -> [[f32; LANES]; N] {
+        let own: [[f32; LANES]; N] = std::array::from_fn(|i| self.own_lanes(i, c, sin2));
+        let Some(mix) = &self.mix else {
+            return own;
+        };
+        std::array::from_fn(|i| {
+            let ([a, b, d], share) = (neighbours(i, N), mix[i].map(|m| m as f32));
+            let mut f = [0.0; LANES];
+            for k in 0..LANES {
+                let loss = |j: usize| 1.0 - own[j][k];
+                f[k] = 1.0 - (share[0] * loss(a) + share[1] * loss(b) + share[2] * loss(d));
+            }
+            f
+        })
+    }
+
+    #[inline(always)]
+    fn own_lanes(&self, channel: usize, c: &[f32; LANES], sin2: &[f32; LANES]) -> [f32; LANES] {
         let (n, k) = (self.n[channel], self.k[channel]);
         if n.is_infinite() {
             return [1.0; LANES];
         }
-        let (e, square, im) = (excess(n, k) as f32, (n * n - k * k) as f32, (n * k) as f32);
+        let index = Unpolarised32::new(n, k);
         let mut out = [0.0; LANES];
         for lane in 0..LANES {
-            out[lane] = unpolarised_f32(e, square, im, [c[lane], sin2[lane]]);
+            out[lane] = index.at(c[lane], sin2[lane]);
         }
         out
     }
+}
+
+/// The channel before `i` of `count`, itself and the one after it, in a circle.
+#[inline]
+pub(crate) const fn neighbours(i: usize, count: usize) -> [usize; 3] {
+    [(i + count - 1) % count, i, (i + 1) % count]
 }
 
 /// Re (n + ik)^2 - 1, with the digits of indices close to 1.
@@ -120,74 +160,60 @@ fn unpolarised(n: f64, k: f64, [c, s2]: [f64; 2]) -> f64 {
     0.5 * rs * (1.0 + if rp.is_nan() { 1.0 } else { rp })
 }
 
-/// [`unpolarised`] in f32; `e` is the [`excess`], `square` = n^2 - k^2, `im` = n k.
-#[inline(always)]
-fn unpolarised_f32(e: f32, square: f32, im: f32, [c, s2]: [f32; 2]) -> f32 {
-    let c2 = c * c;
-    let re = if c2 < s2 { e + c2 } else { square - s2 };
-    let r = (re * re + 4.0 * im * im).sqrt();
-    let big = 0.5 * (r + re.abs()) + f32::MIN_POSITIVE;
-    let small = im * im / big;
-    let (a2, b2) = if re >= 0.0 {
-        (big, small)
-    } else {
-        (small, big)
-    };
-    let a = a2.sqrt();
-    let plus = a + c;
-    let minus = if re >= 0.0 { (e + b2) / plus } else { a - c };
-    // one division for Rs (1 + Rp/Rs)
-    let (s_num, s_den) = (minus * minus + b2, plus * plus + b2);
-    let (minus, plus) = (a * c - s2, a * c + s2);
-    let (p_num, p_den) = (
-        minus * minus + b2 * c2,
-        plus * plus + b2 * c2 + f32::MIN_POSITIVE,
-    );
-    0.5 * s_num * (p_num + p_den) / (s_den * p_den)
+/// [`unpolarised`] in f32, of one finite index.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Unpolarised32 {
+    excess: f32,
+    /// n^2 - k^2.
+    square: f32,
+    /// n k.
+    im: f32,
 }
 
-/// Refractive index n and extinction k of a metal in linear sRGB.
-///
-/// The values are what Mitsuba 3 (RGB mode) makes of its measured spectra [Mitsuba3]: a projection of the
-/// index, not of the reflectance, on the colour matching functions. Good for comparing renderers; use
-/// spectra where the colour of the metal matters.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Metal {
-    /// Chemical symbol, lower case.
-    pub symbol: &'static str,
-    /// n of red, green, blue.
-    pub n: [f64; 3],
-    /// k of red, green, blue.
-    pub k: [f64; 3],
-}
+impl Unpolarised32 {
+    #[inline(always)]
+    pub(crate) fn new(n: f64, k: f64) -> Self {
+        Self {
+            excess: excess(n, k) as f32,
+            square: (n * n - k * k) as f32,
+            im: (n * k) as f32,
+        }
+    }
 
-/// The metals known by name.
-pub const METALS: [Metal; 4] = [
-    Metal {
-        symbol: "cu",
-        n: [0.201005, 0.923750, 1.102215],
-        k: [3.913262, 2.453045, 2.142090],
-    },
-    Metal {
-        symbol: "au",
-        n: [0.143036, 0.375307, 1.442045],
-        k: [3.982997, 2.385556, 1.603359],
-    },
-    Metal {
-        symbol: "ag",
-        n: [0.155276, 0.116728, 0.138388],
-        k: [4.828354, 3.122222, 2.146901],
-    },
-    Metal {
-        symbol: "al",
-        n: [1.657501, 0.880405, 0.521244],
-        k: [9.223811, 6.269502, 4.837005],
-    },
-];
+    #[inline(always)]
+    pub(crate) fn at(self, c: f32, s2: f32) -> f32 {
+        let Self {
+            excess: e,
+            square,
+            im,
+        } = self;
+        let c2 = c * c;
+        let re = if c2 < s2 { e + c2 } else { square - s2 };
+        let r = (re * re + 4.0 * im * im).sqrt();
+        let big = 0.5 * (r + re.abs()) + f32::MIN_POSITIVE;
+        let small = im * im / big;
+        let (a2, b2) = if re >= 0.0 {
+            (big, small)
+        } else {
+            (small, big)
+        };
+        let a = a2.sqrt();
+        let plus = a + c;
+        let minus = if re >= 0.0 { (e + b2) / plus } else { a - c };
+        // one division for Rs (1 + Rp/Rs)
+        let (s_num, s_den) = (minus * minus + b2, plus * plus + b2);
+        let (minus, plus) = (a * c - s2, a * c + s2);
+        let (p_num, p_den) = (
+            minus * minus + b2 * c2,
+            plus * plus + b2 * c2 + f32::MIN_POSITIVE,
+        );
+        0.5 * s_num * (p_num + p_den) / (s_den * p_den)
+    }
+}
 
 #[cfg(test)]
 mod tests {
-    use super::{Fresnel, METALS};
+    use super::Fresnel;
     use brdf::LANES;
 
     #[test]
@@ -240,20 +266,39 @@ mod tests {
     }
 
     #[test]
+    fn mixtures_add_losses() {
+        let (n, k) = ([0.2, 0.9, 1.7], [3.9, 2.5, 9.2]);
+        let own = Fresnel::from_index(n, k);
+        let mix = [[0.5, 0.25, 0.25], [0.0, 1.0, 0.0], [2.0, -1.0, 0.0]];
+        let mixed = Fresnel::mixed(n, k, mix);
+        for c in [0.0, 0.3, 1.0] {
+            let ([a, b, d], f) = (own.eval(c), mixed.eval(c));
+            // the neighbours of the first are the last and the second
+            assert!(
+                (f[0] - (0.5 * d + 0.25 * a + 0.25 * b)).abs() < 1e-15,
+                "{f:?}"
+            );
+            assert!((f[1] - b).abs() < 1e-15, "{f:?}");
+            assert!((f[2] - (2.0 * b - d)).abs() < 1e-15, "{f:?}");
+        }
+    }
+
+    #[test]
     fn lanes_follow_the_scalar_form() {
-        for metal in METALS {
-            let f = Fresnel::from_index(metal.n, metal.k);
+        let (n, k) = ([0.2, 0.9, 1.7], [3.9, 2.5, 9.2]);
+        let mix = [[0.0, 1.0, 0.0], [-0.1, 0.9, 0.2], [0.3, 1.2, -0.5]];
+        for f in [Fresnel::from_index(n, k), Fresnel::mixed(n, k, mix)] {
             let c: [f32; LANES] = std::array::from_fn(|k| k as f32 / (LANES - 1) as f32);
             let sin2 = c.map(|c| (1.0 - c) * (1.0 + c));
+            let lanes = f.eval_lanes(&c, &sin2);
             for channel in 0..3 {
-                let lanes = f.eval_lanes(channel, &c, &sin2);
                 for k in 0..LANES {
                     let exact = f.eval(f64::from(c[k]))[channel];
                     // a dozen f32 operations on numbers of order |n + ik|^2
                     assert!(
-                        (f64::from(lanes[k]) - exact).abs() < 3e-6,
+                        (f64::from(lanes[channel][k]) - exact).abs() < 3e-6,
                         "{} {exact}",
-                        lanes[k]
+                        lanes[channel][k]
                     );
                 }
             }

@@ -42,6 +42,7 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
         microfacet::F0,
         microfacet::N,
         microfacet::K,
+        microfacet::INDEX,
         Parameter::weight("ks", "weight of the lobe", 1.0),
         Parameter::base("kd", "albedo of the Lambert lobe", 0.0),
     ],
@@ -50,7 +51,7 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
         ..Laws::KEPT
     },
     examples: &[
-        "alpha=0.1,n=cu,k=cu",
+        "alpha=0.1,index=cu",
         "alpha=0.5",
         "alpha=1,f0=0.04,ks=0.5,kd=0.5/0.3/0.1",
         "alpha_x=0.3,alpha_y=0.1,f0=0.9/0.6/0.3",
@@ -134,8 +135,9 @@ impl<const N: usize> Brdf<N> for Ggx<N> {
                 0.0
             };
         }
+        let fresnel = self.fresnel.eval_lanes(&cos_d, &sin2_d);
         std::array::from_fn(|c| {
-            let mut f = self.fresnel.eval_lanes(c, &cos_d, &sin2_d);
+            let mut f = fresnel[c];
             let (kd, ks) = (self.diffuse[c] as f32, self.specular[c] as f32);
             for k in 0..LANES {
                 f[k] = kd * diffuse[k] + ks * f[k] * lobe[k];
@@ -261,11 +263,14 @@ impl<const N: usize> Ggx<N> {
         let cos = wo.z.map(|z| z.clamp(0.0, 1.0));
         let sin2 = cos.map(|c| (1.0 - c) * (1.0 + c));
         let mut specular = [0.0_f32; LANES];
-        for c in 0..N {
-            let f = self.fresnel.eval_lanes(c, &cos, &sin2);
-            let ks = self.specular[c] as f32;
+        for (f, ks) in self
+            .fresnel
+            .eval_lanes(&cos, &sin2)
+            .iter()
+            .zip(&self.specular)
+        {
             for k in 0..LANES {
-                specular[k] += ks * f[k];
+                specular[k] += *ks as f32 * f[k];
             }
         }
         let diffuse = self.diffuse.iter().sum::<f64>() as f32;
@@ -340,15 +345,21 @@ impl Kernel {
 #[cfg(test)]
 mod tests {
     use super::Ggx;
-    use crate::fresnel::{Fresnel, METALS};
+    use crate::fresnel::Fresnel;
     use brdf::{Brdf, DirectionSampler, direction};
     use glam::DVec3;
+
+    /// n and k that Mitsuba 3 makes of the spectra of copper in RGB [Mitsuba3].
+    const COPPER: [[f64; 3]; 2] = [
+        [0.201005, 0.923750, 1.102215],
+        [3.913262, 2.453045, 2.142090],
+    ];
 
     fn copper(alpha_x: f64, alpha_y: f64) -> Ggx<3> {
         Ggx {
             alpha_x,
             alpha_y,
-            fresnel: Fresnel::from_index(METALS[0].n, METALS[0].k),
+            fresnel: Fresnel::from_index(COPPER[0], COPPER[1]),
             specular: [1.0; 3],
             diffuse: [0.0; 3],
         }

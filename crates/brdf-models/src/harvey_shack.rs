@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 use crate::half::above;
 use crate::lobe::{SpecularLobe, combine, share};
 use crate::registry::{Built, Laws, ModelInfo, Parameter, Values};
-use crate::shift_invariant::{PowerDisc, direction_at, distance2, total_integrated_scatter};
+use crate::shift_invariant::{PowerDisc, ShiftedLobe, distance2, total_integrated_scatter};
 
 /// f = kd/pi + b0 (1 + (|beta - beta0|/l)^2)^(s/2).
 ///
@@ -69,14 +69,15 @@ impl<const N: usize> HarveyShack<N> {
         }
     }
 
+    #[inline]
+    const fn lobe(&self) -> ShiftedLobe<PowerDisc, 1> {
+        ShiftedLobe([self.disc()])
+    }
+
     /// Total integrated scatter of light from `wo` per channel, without the Lambert lobe, to about 1e-4.
     #[must_use]
     pub fn tis(&self, wo: DVec3) -> [f64; N] {
-        let lobe = Self {
-            diffuse: [0.0; N],
-            ..*self
-        };
-        total_integrated_scatter(&lobe, wo)
+        total_integrated_scatter(self, &self.diffuse, wo)
     }
 
     /// Total integrated scatter at normal incidence in closed form,
@@ -111,13 +112,12 @@ impl<const N: usize> SpecularLobe for HarveyShack<N> {
 
     #[inline]
     fn sample_lobe(&self, wo: DVec3, u: DVec2) -> DVec3 {
-        direction_at(wo, self.disc().radius(u.x), u.y)
+        self.lobe().sample(wo, u)
     }
 
     #[inline]
     fn lobe_pdf(&self, wi: DVec3, wo: DVec3) -> f64 {
-        let disc = self.disc();
-        disc.shape(distance2(wi, wo)) / disc.mass(2.0) * wi.z
+        self.lobe().pdf(wi, wo)
     }
 }
 

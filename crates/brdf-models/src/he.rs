@@ -82,6 +82,7 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
         microfacet::F0,
         microfacet::N,
         microfacet::K,
+        microfacet::INDEX,
         Parameter::scalar(
             "mirror",
             "factor of the mirror reflection, 0 to leave it out",
@@ -105,10 +106,10 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
         ..Laws::KEPT
     },
     examples: &[
-        "sigma=0.18,tau=3,n=al,k=al,lambda=rgb,width=0.02",
+        "sigma=0.18,tau=3,index=al,lambda=rgb,width=0.02",
         "sigma=0.6,tau=4,f0=1,width=0.02",
         "sigma=0.03,tau=0.4,n=1.5,kd=0.4,width=0.02",
-        "sigma=2,tau=20,mirror=0,n=cu,k=cu,lambda=rgb",
+        "sigma=2,tau=20,mirror=0,index=cu,lambda=rgb",
         "sigma=0,tau=1,width=0.05,f0=0.5,ks=0.9,kd=0.1",
         "sigma=0.02,tau=0.05,mirror=0.5,width=0.03,kd=0.2",
         // the mirror reflection as narrow as it is by default
@@ -212,7 +213,7 @@ impl<const N: usize> Brdf<N> for He<N> {
             return [0.0; N];
         };
         let shared = self.shared(wi, wo);
-        let f = self.fresnel.eval(half.cos_d());
+        let f = self.fresnel.eval_at(half.cos_d(), half.sin2_d());
         let shadow = shared.shadow_over_cos2 * (wi.z * wo.z);
         let mirror = self.mirror * self.mirror_lobe(&half) * shadow;
         let ratio = half.len2 / half.h.z;
@@ -260,10 +261,11 @@ impl<const N: usize> He<N> {
         let f = self.fresnel.eval(wo.z.min(1.0));
         let (mut mirror, mut rough, mut width2) = (0.0, 0.0, 0.0);
         for c in 0..N {
-            let e = (-self.phase(c, 2.0 * wo.z, &shared)).exp();
+            // 1 - e^-g of a smooth surface or a low viewer is all digits that 1 - e would lose
+            let scattered = -(-self.phase(c, 2.0 * wo.z, &shared)).exp_m1();
             let weight = self.specular[c] * f[c] * shadow;
-            mirror += weight * e * self.mirror;
-            rough += weight * (1.0 - e);
+            mirror += weight * (1.0 - scattered) * self.mirror;
+            rough += weight * scattered;
             // exp(-w/m) as a lobe in tan^2 of the half vector: m = 1 of the series for a smooth surface
             let first = 2.0 / (self.wave_number(c) * self.tau_um * 2.0 * wo.z);
             width2 += first * first;
@@ -272,9 +274,9 @@ impl<const N: usize> He<N> {
         let geometric = self.slope() * self.slope() * shared.apparent;
         let m = (geometric + width2 / N as f64).sqrt().clamp(1e-5, 1.0);
         let total = mirror + rough + self.diffuse.iter().sum::<f64>();
-        let scale = if total > 0.0 {
-            let diffuse = 1.0 - (mirror + rough) / total;
-            (1.0 - COSINE_SHARE.max(diffuse)) / (mirror + rough).max(f64::MIN_POSITIVE)
+        // each part by what it reflects, but for the least share of the cosine lobe
+        let scale = if mirror + rough > 0.0 {
+            total.recip().min((1.0 - COSINE_SHARE) / (mirror + rough))
         } else {
             0.0
         };

@@ -6,9 +6,9 @@ use std::f64::consts::{FRAC_1_PI, PI};
 
 use crate::half::above;
 use crate::he::LAMBDA;
-use crate::lobe::{ONE_MINUS, SpecularLobe, share};
+use crate::lobe::{SpecularLobe, share};
 use crate::registry::{Built, Laws, ModelInfo, Parameter, Values};
-use crate::shift_invariant::{PowerDisc, direction_at, distance2, total_integrated_scatter};
+use crate::shift_invariant::{PowerDisc, ShiftedLobe, distance2, total_integrated_scatter};
 
 /// f = kd/pi + R ci co (16 pi^2/lambda^4) PSD(|beta - beta0|/lambda), by the vector perturbation theory of
 /// [Stover2012] with its polarisation factor at the value it has near the mirror direction, the reflectance R.
@@ -89,6 +89,11 @@ impl<const N: usize> KCorrelation<N> {
         }
     }
 
+    #[inline]
+    fn lobe(&self) -> ShiftedLobe<PowerDisc, N> {
+        ShiftedLobe(std::array::from_fn(|c| self.disc(c)))
+    }
+
     /// (4 pi sigma/lambda)^2.
     #[inline]
     fn phase2(&self, c: usize) -> f64 {
@@ -120,11 +125,7 @@ impl<const N: usize> KCorrelation<N> {
     /// Total integrated scatter of light from `wo` per channel, without the Lambert lobe, to about 1e-4.
     #[must_use]
     pub fn tis(&self, wo: DVec3) -> [f64; N] {
-        let lobe = Self {
-            diffuse: [0.0; N],
-            ..*self
-        };
-        total_integrated_scatter(&lobe, wo)
+        total_integrated_scatter(self, &self.diffuse, wo)
     }
 }
 
@@ -157,20 +158,12 @@ impl<const N: usize> SpecularLobe for KCorrelation<N> {
 
     #[inline]
     fn sample_lobe(&self, wo: DVec3, u: DVec2) -> DVec3 {
-        // a channel each with the same share of u.x
-        let scaled = u.x * N as f64;
-        let c = (scaled as usize).min(N - 1);
-        let radius = self.disc(c).radius((scaled - c as f64).min(ONE_MINUS));
-        direction_at(wo, radius, u.y)
+        self.lobe().sample(wo, u)
     }
 
     #[inline]
     fn lobe_pdf(&self, wi: DVec3, wo: DVec3) -> f64 {
-        let r2 = distance2(wi, wo);
-        let sum: f64 = (0..N)
-            .map(|c| self.disc(c).shape(r2) / self.disc(c).mass(2.0))
-            .sum();
-        sum / N as f64 * wi.z
+        self.lobe().pdf(wi, wo)
     }
 }
 

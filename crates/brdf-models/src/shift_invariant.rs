@@ -6,9 +6,9 @@
 
 use brdf::Brdf;
 use glam::{DVec2, DVec3};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{FRAC_1_PI, PI, TAU};
 
-use crate::lobe::SpecularLobe;
+use crate::lobe::{ONE_MINUS, SpecularLobe};
 use crate::power_law::{ln_power, power_mass};
 
 /// |beta - beta0|^2.
@@ -18,10 +18,42 @@ pub(crate) fn distance2(wi: DVec3, wo: DVec3) -> f64 {
     x * x + y * y
 }
 
+/// A density of the distance r from the mirror direction, per area of direction cosines, on the disc of radius 2, which
+/// no pair of directions leaves.
+pub(crate) trait Radial {
+    /// The density at r^2.
+    fn density(&self, r2: f64) -> f64;
+    /// The distance below which a share `u` of it lies.
+    fn radius(&self, u: f64) -> f64;
+}
+
+/// A lobe about the mirror direction in direction cosines: distributions that are equally likely, one for all channels or
+/// one a channel.
+pub(crate) struct ShiftedLobe<D, const K: usize>(pub(crate) [D; K]);
+
+impl<D: Radial, const K: usize> ShiftedLobe<D, K> {
+    /// A direction; it may lie below the horizon. Which distribution it is of is folded into `u.x`.
+    #[inline]
+    pub(crate) fn sample(&self, wo: DVec3, u: DVec2) -> DVec3 {
+        let scaled = u.x * K as f64;
+        let k = (scaled as usize).min(K - 1);
+        let radius = self.0[k].radius((scaled - k as f64).min(ONE_MINUS));
+        direction_at(wo, radius, u.y)
+    }
+
+    /// Density of [`Self::sample`], 1/sr.
+    #[inline]
+    pub(crate) fn pdf(&self, wi: DVec3, wo: DVec3) -> f64 {
+        let r2 = distance2(wi, wo);
+        let sum: f64 = self.0.iter().map(|d| d.density(r2)).sum();
+        sum / K as f64 * wi.z
+    }
+}
+
 /// The direction at distance `r` from the mirror direction, at the azimuth 2 pi `u`; below the horizon (pointing
 /// straight down) where the direction cosines leave the unit disc.
 #[inline]
-pub(crate) fn direction_at(wo: DVec3, r: f64, u: f64) -> DVec3 {
+fn direction_at(wo: DVec3, r: f64, u: f64) -> DVec3 {
     let (sin, cos) = (TAU * u).sin_cos();
     let (x, y) = (r * cos - wo.x, r * sin - wo.y);
     let z2 = 1.0 - x * x - y * y;
@@ -32,8 +64,7 @@ pub(crate) fn direction_at(wo: DVec3, r: f64, u: f64) -> DVec3 {
     }
 }
 
-/// Density (1 + (r/l)^2)^(s/2), per area of direction cosines, on the disc of radius 2, which no pair of directions
-/// leaves.
+/// The density of shape (1 + (r/l)^2)^(s/2).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PowerDisc {
     /// Shoulder l.
@@ -56,10 +87,16 @@ impl PowerDisc {
     pub(crate) fn shape(&self, r2: f64) -> f64 {
         (0.5 * self.slope * (r2 / (self.shoulder * self.shoulder)).ln_1p()).exp()
     }
+}
 
-    /// A radius.
+impl Radial for PowerDisc {
     #[inline]
-    pub(crate) fn radius(&self, u: f64) -> f64 {
+    fn density(&self, r2: f64) -> f64 {
+        self.shape(r2) / self.mass(2.0)
+    }
+
+    #[inline]
+    fn radius(&self, u: f64) -> f64 {
         let span = (2.0 / self.shoulder).powi(2).ln_1p();
         let ln = ln_power(u, 0.5 * self.slope + 1.0, span);
         self.shoulder * ln.exp_m1().max(0.0).sqrt()
@@ -70,10 +107,11 @@ impl PowerDisc {
 /// sampler's numbers or not, meets many of them at once [Niederreiter1992].
 const LATTICE: (u32, u64) = (46_368, 28_657);
 
-/// The share of light from `wo` that the lobe of `model` scatters into the hemisphere, per channel, by the model's own
-/// sampler, whose weights are nearly constant. About 1e-4 of the value.
+/// The share of light from `wo` that the lobe of `model` over Lambert's `diffuse` scatters into the hemisphere, per
+/// channel, by the model's own sampler, whose weights are nearly constant. About 1e-4 of the value.
 pub(crate) fn total_integrated_scatter<const N: usize>(
     model: &(impl Brdf<N> + SpecularLobe),
+    diffuse: &[f64; N],
     wo: DVec3,
 ) -> [f64; N] {
     let (points, generator) = LATTICE;
@@ -86,7 +124,7 @@ pub(crate) fn total_integrated_scatter<const N: usize>(
             let scale = wi.z / model.lobe_pdf(wi, wo);
             let f = model.eval(wi, wo);
             for c in 0..N {
-                sum[c] += f[c] * scale;
+                sum[c] += (f[c] - diffuse[c] * FRAC_1_PI) * scale;
             }
         }
     }

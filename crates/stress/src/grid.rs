@@ -90,6 +90,14 @@ pub(crate) fn in_f32(w: DVec3) -> Vec3 {
     w.as_vec3()
 }
 
+/// What a parameter is set to: every choice, or values over its range.
+fn texts(p: &Parameter) -> Vec<String> {
+    match p.choices {
+        [] => values(p).iter().map(f64::to_string).collect(),
+        choices => choices.iter().map(|c| (*c).to_owned()).collect(),
+    }
+}
+
 /// Values of a parameter over its range, both ends included: by powers of ten where the range spans many.
 pub(crate) fn values(p: &Parameter) -> Vec<f64> {
     let (low, high) = p.range;
@@ -105,11 +113,10 @@ pub(crate) fn values(p: &Parameter) -> Vec<f64> {
 
 /// A model at one extreme: the default with one parameter moved, and its examples.
 pub(crate) fn settings(info: &'static ModelInfo) -> Vec<ParsedModel<3>> {
-    let moved = info.parameters.iter().flat_map(|p| {
-        values(p)
-            .into_iter()
-            .map(move |v| format!("{}={v}", p.name))
-    });
+    let moved = info
+        .parameters
+        .iter()
+        .flat_map(|p| texts(p).into_iter().map(move |v| format!("{}={v}", p.name)));
     let examples = info.examples.iter().map(|e| (*e).to_owned());
     moved
         .chain(examples)

@@ -1,5 +1,7 @@
 //! What a case has seen: the worst relative error and where, and what must never come out of a function.
 
+use rayon::prelude::*;
+
 /// Counts over the grid of one case.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tally {
@@ -22,6 +24,33 @@ pub struct Tally {
 }
 
 impl Tally {
+    /// What `f` sees of every item, in parallel, added up in their order.
+    pub fn each<T: Sync>(&mut self, items: &[T], f: impl Fn(&T, &mut Self) + Sync) {
+        let seen = items.par_iter().with_max_len(1).map(|item| {
+            let mut own = Self::default();
+            f(item, &mut own);
+            own
+        });
+        for own in seen.collect::<Vec<_>>() {
+            self.add(own);
+        }
+    }
+
+    /// Adds what was seen later.
+    fn add(&mut self, later: Self) {
+        self.count += later.count;
+        self.nan += later.nan;
+        self.inf += later.inf;
+        self.negative += later.negative;
+        self.denormal += later.denormal;
+        if later.worst > self.worst {
+            (self.worst, self.place) = (later.worst, later.place);
+        }
+        if self.broken.is_empty() {
+            self.broken = later.broken;
+        }
+    }
+
     /// Compares a result that must not be negative with its reference: |value - reference| / max(reference, floor).
     ///
     /// The floor is where digits stop to matter: values below it need only be as small.
@@ -93,6 +122,25 @@ impl Tally {
 #[cfg(test)]
 mod tests {
     use super::Tally;
+
+    #[test]
+    fn items_in_parallel_are_seen_in_their_order() {
+        let items: Vec<u32> = (0..100).collect();
+        let see = |k: &u32, tally: &mut Tally| {
+            let value = if *k == 40 || *k == 70 { f64::NAN } else { 1.0 };
+            let reference = 1.0 - f64::from(*k % 50) * 1e-3;
+            tally.value(value, reference, 0.0, || format!("item {k}"));
+        };
+        let (mut parallel, mut serial) = (Tally::default(), Tally::default());
+        parallel.each(&items, see);
+        items.iter().for_each(|k| see(k, &mut serial));
+        assert_eq!(parallel, serial);
+        assert!(
+            parallel.broken.starts_with("item 40"),
+            "{}",
+            parallel.broken
+        );
+    }
 
     #[test]
     fn the_worst_is_kept_with_its_place() {

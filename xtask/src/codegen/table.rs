@@ -14,9 +14,7 @@ pub(super) struct Table {
 impl Table {
     /// Reads `xtask/data/NAME.csv`.
     pub(super) fn read(name: &str) -> Result<Self> {
-        let path = repo::root().join("xtask/data").join(format!("{name}.csv"));
-        let text = repo::read(&path)?;
-        Self::parse(&text).with_context(|| repo::shown(&path))
+        Self::parse(&text(name)?).with_context(|| format!("xtask/data/{name}.csv"))
     }
 
     fn parse(text: &str) -> Result<Self> {
@@ -52,6 +50,11 @@ impl Table {
         let points = self.rows.iter().filter_map(|r| Some((r[0]?, r[c]?)));
         Ok(points.collect())
     }
+}
+
+/// `xtask/data/NAME.csv` as it is.
+pub(super) fn text(name: &str) -> Result<String> {
+    repo::read(&repo::root().join("xtask/data").join(format!("{name}.csv")))
 }
 
 fn field(text: &str) -> Result<Option<f64>> {

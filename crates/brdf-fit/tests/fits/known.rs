@@ -60,7 +60,7 @@ pub(crate) const TRUTHS: &[(&str, &str)] = &[
     ),
     (
         "k-correlation",
-        "k-correlation:b=2,s=3,ks=0.9/0.6/0.3,kd=0.3/0.2/0.1",
+        "k-correlation:b=2,s=4,ks=0.9/0.6/0.3,kd=0.3/0.2/0.1",
     ),
     (
         "koenderink-2",

@@ -1,24 +1,31 @@
 //! Lambert's W function on the positive axis [Corless1996].
 
-/// W_0(y) to about 1 % for y >= 0, rising [Iacono2017, eq. 20].
+/// W_0(y) to about 1 % for y >= 0, rising [Iacono2017, eq. 20]; 0 where 1 + y is 1.
 #[inline]
 pub(super) fn rough(y: f64) -> f64 {
-    let l = y.ln_1p();
-    l * (1.0 - l.ln_1p() / (2.0 + l))
+    let l = (1.0 + y).ln();
+    l * (1.0 - (1.0 + l).ln() / (2.0 + l))
+}
+
+/// The next approximation of W_0(y) after `w`, whose error it squares [Iacono2017, eq. 8].
+#[inline]
+pub(super) fn step(y: f64, w: f64) -> f64 {
+    if w > 0.0 {
+        w * (1.0 + (y / w).ln()) / (1.0 + w)
+    } else {
+        0.0
+    }
 }
 
 /// W_0(y), the solution of w e^w = y, for 0 <= y < infinity; to a few units in the last place.
 #[inline]
 pub(super) fn lambert_w(y: f64) -> f64 {
-    let mut w = rough(y);
-    if w <= 0.0 {
-        return 0.0;
+    // y - y^2 + 3/2 y^3 - ...
+    if y < 1e-8 {
+        return y * (1.0 - y);
     }
-    // the iteration of [Iacono2017, eq. 8] squares the error: 1e-2, 1e-4, 1e-8, 1e-16
-    for _ in 0..3 {
-        w *= (1.0 + (y / w).ln()) / (1.0 + w);
-    }
-    w
+    // 1e-2, 1e-4, 1e-8, 1e-16
+    (0..3).fold(rough(y), |w, _| step(y, w))
 }
 
 #[cfg(test)]

@@ -3,20 +3,20 @@
 use super::lambert_w;
 use std::f64::consts::TAU;
 
-/// From this saddle point on the sum is taken as an integral. Its lower end then lies where the summand is
-/// e^-16 of its peak, which bounds the error by about 1e-5.
-const FROM_INTEGRAL: f64 = 16.0;
-/// Step of the integral in standard deviations of the summand: the trapezoidal rule on a Gaussian errs by
-/// 2 exp(-2 pi^2) = 5e-9 [Trefethen2014]; the summand is skewed, and errs more.
-const STEP: f64 = 1.0;
+/// From this largest term on the sum is taken as an integral, by its saddle point. There the expansion errs by 2e-5, and
+/// the lower end, where the summand is e^-20 of its peak, by less.
+const FROM_SADDLE: f64 = 20.0;
+/// Least deviation of a summand that is nearly a Gaussian: its sum and its integral differ by 2 exp(-2 pi^2 0.9^2) = 2e-7
+/// [Trefethen2014].
+const WIDE: f64 = 0.9;
 /// Share of the largest term after which none are summed up.
 const NEGLIGIBLE: f64 = 1e-7;
-/// Most terms of the direct sum: the saddle point, 6.5 deviations of at most 4, a few for small sums.
+/// Most terms of the direct sum: [`FROM_SADDLE`], 5 deviations of at most 4.5, a few for small sums.
 const TERMS: usize = 48;
 /// Exponentials computed together.
 const WIDTH: usize = 8;
 
-/// sum over m >= 1 of e^-g g^m / (m! m) e^(-w/m), for g >= 0 and w >= 0, to 1e-5 relative.
+/// sum over m >= 1 of e^-g g^m / (m! m) e^(-w/m), for g >= 0 and w >= 0, to 2e-5 relative.
 ///
 /// Where the sum itself is below 1e-290, 0 is returned.
 #[inline]
@@ -30,89 +30,66 @@ pub(super) fn series(g: f64, w: f64) -> f64 {
         // g so small that every term but the first underflows
         return direct(g, w, 1);
     }
-    let m0 = g * (0.5 * lambert_w::rough(tilt)).exp();
+    let rough = lambert_w::rough(tilt);
+    let m0 = g * (0.5 * rough).exp();
+    if m0 < FROM_SADDLE {
+        // to the right the summand falls like Poisson's, whatever w
+        return direct(g, w, (m0 + 5.0 * m0.sqrt() + 4.0) as usize);
+    }
+    let m0 = g * (0.5 * lambert_w::step(tilt, rough)).exp();
     // the summand is nearly a Gaussian of this deviation
     let deviation = (m0 / (1.0 + 2.0 * (w / m0) / m0)).sqrt();
-    if m0 < FROM_INTEGRAL {
-        // to the right the summand falls like Poisson's, whatever w
-        direct(g, w, (m0 + 6.5 * m0.sqrt() + 4.0) as usize)
+    if deviation > WIDE {
+        saddle(g, w, m0)
     } else {
-        integral(g, w, m0, deviation)
+        narrow(g, w, m0)
     }
 }
 
-/// The first `terms` terms. Factors come by recurrence, exponentials eight at a time.
+/// The first `terms` terms, each an exponential of its logarithm, eight at a time.
 #[inline]
 fn direct(g: f64, w: f64, terms: usize) -> f64 {
-    let terms = terms.min(TERMS);
-    // g^m e^-g / (m! m), m = 1
-    let mut factor = g * (-g).exp();
-    let mut sum = 0.0;
-    for chunk in 0..terms.div_ceil(WIDTH) {
+    let ln_g = g.ln();
+    let mut sums = [0.0; WIDTH];
+    for chunk in 0..terms.min(TERMS).div_ceil(WIDTH) {
         let first = chunk * WIDTH;
         let mut x = [0.0; WIDTH];
         for k in 0..WIDTH {
-            x[k] = -w * RECIPROCAL[first + k];
+            let [m, reciprocal, ln_factorial] = TERM[first + k];
+            x[k] = m * ln_g - g - ln_factorial - w * reciprocal;
         }
         let e = exp(&x);
         for k in 0..WIDTH {
-            sum += factor * e[k];
-            // t_{m+1}/t_m = g m/(m+1)^2 but for the exponential
-            factor *= g * RATIO[first + k];
+            sums[k] += e[k];
         }
     }
-    sum
+    sums.iter().sum()
 }
 
-/// 1/m at m - 1.
-const RECIPROCAL: [f64; TERMS] = {
-    let mut table = [0.0; TERMS];
+/// m, 1/m and ln(m! m) at m - 1.
+const TERM: [[f64; 3]; TERMS] = {
+    let mut table = [[0.0; 3]; TERMS];
     let mut m = 1;
     while m <= TERMS {
-        table[m - 1] = 1.0 / m as f64;
+        table[m - 1] = [m as f64, 1.0 / m as f64, LN_FACTORIAL_M[m - 1]];
         m += 1;
     }
     table
 };
 
-/// m/(m+1)^2 at m - 1.
-const RATIO: [f64; TERMS] = {
-    let mut table = [0.0; TERMS];
-    let mut m = 1;
-    while m <= TERMS {
-        table[m - 1] = m as f64 / ((m + 1) * (m + 1)) as f64;
-        m += 1;
-    }
-    table
-};
-
-/// e^x for x <= 0 to 1e-11, without branches, so that the loop becomes vector code; 0 below -700.
+/// e^x for x of at most a few units to 2e-7, without branches, so that the loop becomes vector code; 0 below -700.
 #[inline]
 fn exp(x: &[f64; WIDTH]) -> [f64; WIDTH] {
     /// Adding it rounds to a whole number: 1.5 * 2^52.
     const ROUND: f64 = 6_755_399_441_055_744.0;
-    // ln 2 in two parts, the first short enough that n times it is exact [Cody1980]
-    const LN2_HIGH: f64 = 0.693_145_751_953_125;
-    const LN2_LOW: f64 = 1.428_606_820_309_417_2e-6;
     let mut out = [0.0; WIDTH];
     for k in 0..WIDTH {
         let x_k = x[k].max(-708.0);
         let shifted = x_k * std::f64::consts::LOG2_E + ROUND;
-        let n = shifted - ROUND;
-        let r = x_k - n * LN2_HIGH - n * LN2_LOW;
-        // Taylor: |r| <= ln 2 / 2, r^10/10! < 7e-12
-        let mut p = 1.0 / 362_880.0;
-        for c in [
-            1.0 / 40_320.0,
-            1.0 / 5_040.0,
-            1.0 / 720.0,
-            1.0 / 120.0,
-            1.0 / 24.0,
-            1.0 / 6.0,
-            0.5,
-            1.0,
-            1.0,
-        ] {
+        let r = x_k - (shifted - ROUND) * std::f64::consts::LN_2;
+        // Taylor: |r| <= ln 2 / 2, r^7/7! < 1.2e-7
+        let mut p = 1.0 / 720.0;
+        for c in [1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0] {
             p = p * r + c;
         }
         // the whole number stands in the low bits of `shifted`
@@ -123,21 +100,55 @@ fn exp(x: &[f64; WIDTH]) -> [f64; WIDTH] {
     out
 }
 
-/// The sum as an integral over m, by the trapezoidal rule about the saddle point; in steps of 1, that is as the
-/// sum itself, where the summand is too narrow for more.
+/// The sum as an integral over m of e^h(m), h as in [`ln_term`], by Laplace's method about the saddle point to second
+/// order in 1/m [Bender1999, 6.4]; `m` is near it.
 #[inline]
-fn integral(g: f64, w: f64, m0: f64, deviation: f64) -> f64 {
-    let (centre, step) = if deviation > 1.25 {
-        (m0, STEP * deviation)
-    } else {
-        (m0.round(), 1.0)
-    };
-    let peak = term(g, w, centre).exp();
+fn saddle(g: f64, w: f64, m: f64) -> f64 {
+    // Stirling's 1/(12 m) adds to w/m
+    let v = w + 1.0 / 12.0;
+    let i = 1.0 / m;
+    // h', m h'' and m^2 h'''
+    let (h1, h2, h3) = (
+        (g * i).ln() + i * (-1.5 + i * v),
+        -1.0 + i * (1.5 - 2.0 * i * v),
+        1.0 + i * (-3.0 + 6.0 * i * v),
+    );
+    // Halley's step for h' = 0
+    let m = m * (1.0 - 2.0 * h1 * h2 / (2.0 * h2 * h2 - h1 * h3));
+    let i = 1.0 / m;
+    let iv = i * v;
+    let ratio = ln_ratio(g, m);
+    let h1 = ratio + i * (-1.5 + iv);
+    let s2 = m / (1.0 + i * (-1.5 + 2.0 * iv));
+    // derivatives of h times powers of the deviation: i h2 s^2 = -1
+    let t = s2 * i;
+    let (r, t2) = (t * s2.sqrt(), t * t);
+    let a3 = i * r * (1.0 + i * (-3.0 + 6.0 * iv));
+    let a4 = i * t2 * (-2.0 + i * (9.0 - 24.0 * iv));
+    let a5 = i * i * t * r * (6.0 + i * (-36.0 + 120.0 * iv));
+    let a6 = i * i * t2 * t * (-24.0 + i * (180.0 - 720.0 * iv));
+    let a33 = a3 * a3;
+    let first = a4 / 8.0 + 5.0 / 24.0 * a33;
+    let second = a6 / 48.0
+        + 7.0 / 48.0 * a3 * a5
+        + 35.0 / 384.0 * a4 * a4
+        + a33 * (35.0 / 64.0 * a4 + 385.0 / 1152.0 * a33);
+    // what the last step left of h'
+    let left = h1 * s2.sqrt();
+    let exponent = m * ratio + (m - g) - w * i - i / 12.0 + 0.5 * left * left;
+    exponent.exp() * i * t.sqrt() * (1.0 + first + second + 0.5 * left * a3)
+}
+
+/// Term by term about the largest, where the summand is narrower than the terms are apart.
+#[inline]
+fn narrow(g: f64, w: f64, m0: f64) -> f64 {
+    let centre = m0.round();
+    let peak = ln_term(g, w, centre).exp();
     let mut sum = peak;
-    for direction in [step, -step] {
+    for direction in [1.0, -1.0] {
         let mut m = centre + direction;
         while m > 0.5 {
-            let t = term(g, w, m).exp();
+            let t = ln_term(g, w, m).exp();
             sum += t;
             // the rest falls faster than a Gaussian there
             if t <= NEGLIGIBLE * peak {
@@ -146,27 +157,84 @@ fn integral(g: f64, w: f64, m0: f64, deviation: f64) -> f64 {
             m += direction;
         }
     }
-    sum * step
+    sum
 }
 
-/// ln of the term, continued to any m > 0 by Stirling's series, which at the smallest m that carries weight
-/// errs by 1/(1260 m^5) [Abramowitz1964, 6.1.41]; written so that large g and m do not cancel.
+/// ln of the term for m >= 10 by Stirling's series, which errs by 1/(1260 m^5) [Abramowitz1964, 6.1.41]; written so that
+/// large g and m do not cancel.
 #[inline]
-fn term(g: f64, w: f64, m: f64) -> f64 {
+fn ln_term(g: f64, w: f64, m: f64) -> f64 {
     let inv = 1.0 / m;
     let stirling = inv * (1.0 / 12.0 - inv * inv / 360.0);
-    // ln(1 + x) where m is close to g, for the digits; x is exact there
-    let ratio = if (m - g).abs() < 0.1 * g {
+    m * ln_ratio(g, m) + (m - g) - 0.5 * (TAU * m).ln() - stirling - m.ln() - w * inv
+}
+
+/// ln(g/m), with the digits of m close to g, where the difference is exact: they matter once it is multiplied by a
+/// million.
+#[inline]
+fn ln_ratio(g: f64, m: f64) -> f64 {
+    if g > 1e6 && (m - g).abs() < 0.1 * g {
         -((m - g) / g).ln_1p()
     } else {
         (g / m).ln()
-    };
-    m * ratio + (m - g) - 0.5 * (TAU * m).ln() - stirling - m.ln() - w * inv
+    }
 }
+
+/// ln(m! m) at m - 1.
+const LN_FACTORIAL_M: [f64; TERMS] = [
+    0.0,
+    1.3862943611198906,
+    2.8903717578961645,
+    4.564348191467836,
+    6.396929655216146,
+    8.371010681238156,
+    10.471071510120728,
+    12.684044444425085,
+    14.999052057417689,
+    17.40699766606956,
+    19.900203118672255,
+    22.472121145449886,
+    25.11711321058496,
+    27.83027851235394,
+    30.6073215849431,
+    33.44444882832045,
+    36.3382867941931,
+    39.28581696592922,
+    42.28432316636594,
+    45.331348734307475,
+    48.42466133620033,
+    51.56222380519354,
+    54.74216978369353,
+    57.96278322846027,
+    61.222481047848724,
+    64.51979829902348,
+    67.85337549301066,
+    71.22194764735674,
+    74.62433479715449,
+    78.05943373049232,
+    81.52621075780046,
+    85.02369535891476,
+    88.550974579048,
+    92.10718806681383,
+    95.6915236651765,
+    99.30321348059931,
+    102.94153036743165,
+    106.60578477424019,
+    110.29532190677311,
+    114.00951916887134,
+    117.74778384816601,
+    121.50955101802845,
+    125.2942816311322,
+    129.10146078327514,
+    132.93059612889755,
+    136.7812164321054,
+    140.65287023903642,
+    144.54512465914215,
+];
 
 #[cfg(test)]
 mod tests {
-    use super::series;
+    use super::{FROM_SADDLE, series};
 
     /// ln of the sum, term by term over all that matter, for a reference with an error of 1e-9.
     ///
@@ -252,8 +320,8 @@ mod tests {
     #[test]
     fn both_sides_of_the_switch_agree() {
         for w in [0.0, 1.0, 30.0, 1e3, 1e5] {
-            // g at which the saddle point is 16
-            let g = 16.0 * f64::exp(-w / 256.0);
+            // g at which the largest term is FROM_SADDLE
+            let g = FROM_SADDLE * f64::exp(-w / (FROM_SADDLE * FROM_SADDLE));
             let (below, above) = (series(g * (1.0 - 1e-9), w), series(g * (1.0 + 1e-9), w));
             // the accuracy of either
             let error = (below / above - 1.0).abs();

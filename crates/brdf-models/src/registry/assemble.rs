@@ -1,10 +1,14 @@
 //! From the parameters that were given to the whole model: names, ranges, defaults, exclusions.
 
+use super::parameter::Entry;
 use super::{DefaultValue, MODELS, ModelError, ModelInfo, Parameter, ParsedModel, Values, build};
 use std::borrow::Cow;
 
 /// Most lobes a model may have: far more than anyone fits, few enough that a slip of the keyboard does no harm.
 const MAX_LOBES: usize = 64;
+
+/// Channels of linear sRGB.
+pub(super) const RGB: usize = 3;
 
 /// The parameter `name` of lobe number `lobe`, 1, 2, ...: the first lobe's have no number.
 pub(crate) fn numbered(name: &str, lobe: usize) -> Cow<'_, str> {
@@ -168,8 +172,17 @@ impl Given {
                 max,
             });
         }
+        if !p.choices.is_empty() && N != RGB {
+            // the indices of a colour are mixtures of three
+            return Err(ModelError::WrongCount {
+                model,
+                name: name.into_owned(),
+                expected: format!("numbers in {N} channels (names are known in RGB alone)"),
+                found: RGB,
+            });
+        }
         self.lobes = self.lobes.max(named.lobe);
-        self.values.entries.push((name, values));
+        self.values.entries.push(Entry::new(p, name, values));
         Ok(())
     }
 
@@ -195,7 +208,7 @@ impl Given {
                 ([], DefaultValue::SameAs(other)) => all.get(&numbered(other, lobe)).to_vec(),
                 (v, _) => v.to_vec(),
             };
-            all.entries.push((name, value));
+            all.entries.push(Entry::new(p, name, value));
         }
         all
     }

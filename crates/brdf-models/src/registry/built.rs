@@ -61,9 +61,9 @@ impl<const N: usize> ParsedModel<N> {
     pub fn lobes(&self) -> (Arc<dyn Brdf<N>>, Vec<Lobe<N>>) {
         let with = |one: Option<&str>| {
             let mut values = self.values.clone();
-            for (name, numbers) in &mut values.entries {
-                if self.info.role(name) == Role::Weight {
-                    *numbers = vec![f64::from(u8::from(one == Some(&**name)))];
+            for entry in &mut values.entries {
+                if self.info.role(&entry.name) == Role::Weight {
+                    entry.numbers = vec![f64::from(u8::from(one == Some(&*entry.name)))];
                 }
             }
             build::<N>(self.info.name, &values)

@@ -45,6 +45,8 @@ pub struct Parameter {
     pub repeats: bool,
     /// Names that stand for values in R/G/B.
     pub words: &'static [(&'static str, [f64; 3])],
+    /// What it is one of, by name; empty for a number. The value is the place in this list.
+    pub choices: &'static [&'static str],
     /// Parameters that may not be given beside it.
     pub excludes: &'static [&'static str],
 }
@@ -67,6 +69,7 @@ impl Parameter {
             role: Role::Shape,
             repeats: false,
             words: &[],
+            choices: &[],
             excludes: &[],
         }
     }
@@ -115,20 +118,48 @@ impl Parameter {
     }
 }
 
+impl Entry {
+    pub(super) fn new(parameter: &Parameter, name: Cow<'static, str>, numbers: Vec<f64>) -> Self {
+        // a place in a short list: exact
+        let place = numbers.first().map_or(0, |v| *v as usize);
+        Self {
+            choice: parameter.choices.get(place).copied(),
+            name,
+            numbers,
+        }
+    }
+}
+
 /// The values of a model's parameters, complete: defaults are filled in.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Values {
-    pub(super) entries: Vec<(Cow<'static, str>, Vec<f64>)>,
+    pub(super) entries: Vec<Entry>,
+}
+
+/// One parameter and its value.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Entry {
+    pub(super) name: Cow<'static, str>,
+    pub(super) numbers: Vec<f64>,
+    /// The name the number stands for, where it is one of several.
+    pub(super) choice: Option<&'static str>,
 }
 
 impl Values {
     /// The numbers of `name`; empty if the parameter is absent.
     #[must_use]
     pub fn get(&self, name: &str) -> &[f64] {
-        self.entries
-            .iter()
-            .find(|(n, _)| n == name)
-            .map_or(&[], |(_, v)| v)
+        self.entry(name).map_or(&[], |e| &e.numbers)
+    }
+
+    /// What was chosen for `name`, a parameter that is one of several names.
+    #[must_use]
+    pub fn choice(&self, name: &str) -> Option<&'static str> {
+        self.entry(name)?.choice
+    }
+
+    fn entry(&self, name: &str) -> Option<&Entry> {
+        self.entries.iter().find(|e| e.name == name)
     }
 
     /// True unless the parameter is absent.
@@ -139,7 +170,7 @@ impl Values {
 
     /// Name and numbers of every parameter that is not absent.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &[f64])> {
-        self.entries.iter().map(|(n, v)| (&**n, v.as_slice()))
+        (self.entries.iter()).map(|e| (&*e.name, e.numbers.as_slice()))
     }
 
     /// A parameter that has one number; NaN if it is absent.
@@ -163,10 +194,13 @@ impl Values {
 /// `alpha=0.1,kd=0.2/0.1/0.05`.
 impl fmt::Display for Values {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (i, (name, values)) in self.iter().enumerate() {
-            let values: Vec<_> = values.iter().map(f64::to_string).collect();
+        for (i, entry) in self.entries.iter().enumerate() {
+            let numbers: Vec<_> = entry.numbers.iter().map(f64::to_string).collect();
+            let value = entry
+                .choice
+                .map_or_else(|| numbers.join("/"), str::to_owned);
             let comma = if i == 0 { "" } else { "," };
-            write!(f, "{comma}{name}={}", values.join("/"))?;
+            write!(f, "{comma}{}={value}", entry.name)?;
         }
         Ok(())
     }

@@ -21,7 +21,7 @@ pub fn parse_model(text: &str) -> Result<ParsedModel<3>, ModelError> {
 /// Builds a model of `N` channels from its name and parameters, `ward:alpha=0.15,kd=0.2/0.1/0.05`.
 ///
 /// Per-channel parameters take one value or `N`, separated by `/`; whatever is not given has its default.
-/// Names of metals (`n=cu`) are known for three channels only.
+/// Names (`index=cu`, `lambda=rgb`) are known for three channels only, those of linear sRGB.
 ///
 /// # Errors
 /// Says which part of the text is wrong, what was expected there and what was found.
@@ -52,6 +52,19 @@ fn numbers<const N: usize>(
     named: &Named,
     text: &str,
 ) -> Result<Vec<f64>, ModelError> {
+    let choices = named.parameter.choices;
+    if !choices.is_empty() {
+        let place = choices.iter().position(|c| text.eq_ignore_ascii_case(c));
+        return match place {
+            Some(place) => Ok(vec![place as f64]),
+            None => Err(ModelError::NotANumber {
+                model: info.name,
+                name: named.name.to_string(),
+                expected: format!("one of {}", choices.join(", ")),
+                text: text.into(),
+            }),
+        };
+    }
     let words = named.parameter.words;
     let Some((_, rgb)) = words.iter().find(|(w, _)| text.eq_ignore_ascii_case(w)) else {
         return (text.split('/'))

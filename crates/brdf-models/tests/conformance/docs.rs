@@ -24,7 +24,10 @@ fn parameter(p: &Parameter) -> String {
     } else {
         String::new()
     };
-    let range = format!("{} ... {}{unit}", p.range.0, p.range.1);
+    let range = match p.choices {
+        [] => format!("{} ... {}{unit}", p.range.0, p.range.1),
+        choices => format!("one of {}", choices.join(", ")),
+    };
     format!(
         "`{}` {} ({default}; {range}{channels}{linear}{further})",
         p.name, p.title

@@ -2,13 +2,22 @@
 
 use crate::cases::{examples, random_direction};
 use brdf::direction;
-use brdf_models::{DefaultValue, MODELS, ModelInfo, ParsedModel, parse_model};
+use brdf_models::{DefaultValue, MODELS, ModelInfo, Parameter, ParsedModel, parse_model};
 use glam::{DVec2, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// The model with one parameter at the given value, the rest at default.
-fn with(info: &ModelInfo, name: &str, value: f64) -> ParsedModel<3> {
-    parse_model(&format!("{}:{name}={value}", info.name)).expect("the ends of a range are valid")
+/// The model with one parameter at an end of its range, or at one of its choices, the rest at default.
+fn at_ends(
+    info: &'static ModelInfo,
+    p: &'static Parameter,
+) -> impl Iterator<Item = ParsedModel<3>> {
+    let values: Vec<String> = match p.choices {
+        [] => [p.range.0, p.range.1].map(|v| v.to_string()).to_vec(),
+        choices => choices.iter().map(|c| (*c).to_owned()).collect(),
+    };
+    values.into_iter().map(move |value| {
+        parse_model(&format!("{}:{}={value}", info.name, p.name)).expect("an end of a range")
+    })
 }
 
 /// Directions at the pole, ordinary ones, and down to 1e-7 and 1e-12 rad above the horizon.
@@ -74,8 +83,7 @@ fn both_ends_of_every_range() {
     for info in MODELS {
         check(&parse_model(info.name).unwrap());
         for p in info.parameters {
-            check(&with(info, p.name, p.range.0));
-            check(&with(info, p.name, p.range.1));
+            at_ends(info, p).for_each(|model| check(&model));
         }
     }
 }

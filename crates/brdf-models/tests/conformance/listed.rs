@@ -21,7 +21,9 @@ fn every_model_is_listed() {
         let text = fs::read_to_string(&path).unwrap();
         let here = text.matches(": ModelInfo = ModelInfo {").count();
         entries += here;
-        if text.contains("Brdf<N> for") {
+        // the listed models in other channels, compared with them by its own tests
+        let elsewhere = path.ends_with("src/spectral.rs");
+        if text.contains("Brdf<N> for") && !elsewhere {
             models += 1;
             assert!(
                 here > 0,

@@ -31,6 +31,10 @@ fn defaults_are_filled_in() {
         "ggx:alpha=0.1,alpha_x=0.1,alpha_y=0.5,k=2,ks=1,kd=0"
     );
     assert_eq!(
+        echo("ggx:index=CU"),
+        "ggx:alpha=0.1,alpha_x=0.1,alpha_y=0.1,index=cu,ks=1,kd=0"
+    );
+    assert_eq!(
         echo("ward-gmd:kd=0.1/0.2/0.3"),
         "ward-gmd:alpha=0.15,alpha_x=0.15,alpha_y=0.15,ks=0.5,kd=0.1/0.2/0.3"
     );
@@ -108,9 +112,16 @@ fn errors_say_place_expected_and_found() {
             "ggx:k=1,f0=0.04",
             "model `ggx`: give either `k` or `f0`, not both",
         ),
+        ("ggx:n=xx", "expected a number, found `xx`"),
+        ("he:lambda=xx", "expected a number or rgb, found `xx`"),
         (
-            "ggx:n=xx",
-            "expected a number or cu or au or ag or al, found `xx`",
+            "ggx:index=xx",
+            "model `ggx`, parameter `index`: expected one of ag, al, au, cr, cu, fe, ni, ti, bk7",
+        ),
+        ("ggx:index=cu/au", "found `cu/au`"),
+        (
+            "ggx:index=cu,k=1",
+            "model `ggx`: give either `index` or `k`, not both",
         ),
     ];
     for (text, expected) in cases {
@@ -128,7 +139,7 @@ fn any_number_of_channels() {
     let eight = parse_model_n::<8>("lambert:kd=0/0.1/0.2/0.3/0.4/0.5/0.6/0.7").unwrap();
     let f = eight.built.brdf.eval(DVec3::Z, DVec3::Z);
     assert!((f[7] * std::f64::consts::PI - 0.7).abs() < 1e-15, "{f:?}");
-    let error = parse_model_n::<8>("ggx:n=cu,k=cu").unwrap_err().to_string();
+    let error = parse_model_n::<8>("ggx:index=cu").unwrap_err().to_string();
     assert!(error.contains("known in RGB alone"), "{error}");
     assert!(
         parse_model_n::<8>("lambert:kd=0.1/0.2/0.3").is_err(),

@@ -62,7 +62,7 @@ pub(crate) fn run(context: &Context, args: &Measure) -> Result<()> {
 /// A model for programs.
 fn described(info: &ModelInfo) -> serde_json::Value {
     let parameters: Vec<_> = (info.parameters.iter())
-        .map(|p| json!({ "name": p.name, "title": p.title, "unit": p.unit, "range": [p.range.0, p.range.1] }))
+        .map(|p| json!({ "name": p.name, "title": p.title, "unit": p.unit, "range": [p.range.0, p.range.1], "choices": p.choices }))
         .collect();
     json!({ "name": info.name, "title": info.title, "citation": info.citation, "parameters": parameters })
 }
@@ -82,14 +82,14 @@ fn list(out: &mut String) -> fmt::Result {
             } else {
                 ""
             };
+            let range = match p.choices {
+                [] => format!("{} to {}{}", p.range.0, p.range.1, unit(p.unit)),
+                choices => choices.join(", "),
+            };
             writeln!(
                 out,
-                "    {:<12} {} [{} to {}{}], {default}{colour}",
-                p.name,
-                p.title,
-                p.range.0,
-                p.range.1,
-                unit(p.unit)
+                "    {:<12} {} [{range}], {default}{colour}",
+                p.name, p.title
             )?;
         }
     }

@@ -1,7 +1,8 @@
 //! What the channels of a render mean.
 
+use brdf_models::Seeing;
 use spectrum::matrix::transform;
-use spectrum::{Basis, Bins, Observer, Spectrum, Viewing, table_srgb_from_xyz};
+use spectrum::{Basis, Bins, Observer, Outside, RgbSpace, Spectrum, Viewing, table_srgb_from_xyz};
 
 /// The channels of a render: functions of wavelength that share the spectrum among them.
 ///
@@ -115,6 +116,20 @@ impl Channels {
         }
     }
 
+    /// What models that know more than three wavelengths are told about these channels.
+    pub(super) fn seeing<T>(&self, ask: impl FnOnce(&Seeing<'_>) -> T) -> T {
+        let nm = Observer::CIE_1931.range_nm();
+        // the mean of the wavelength itself
+        let ramp = Spectrum::new(nm.to_vec(), nm.to_vec(), Outside::Hold);
+        let lambda_nm = self.reflectance(&ramp.unwrap_or_else(|_| Spectrum::constant(nm[0])));
+        let rows = self.rows(&Basis::Rgb(RgbSpace::srgb()));
+        ask(&Seeing {
+            lambda_nm: &lambda_nm,
+            project: &|s| self.reflectance(s),
+            uplift: std::array::from_fn(|c| rows.get(c).map_or(&[][..], |row| row)),
+        })
+    }
+
     /// Means over bins as the reference and the eye see them: x for which x times the bin's own (X, Y, Z) is the nearest
     /// to those of the reflectance in it. A mean with positive weights; the plain one where nothing is seen.
     fn seen_means(&self, bins: &Bins, spectrum: &Spectrum) -> Vec<f64> {
@@ -188,7 +203,7 @@ fn xyz_weights(basis: &Basis, light: &Spectrum) -> Vec<[f64; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spectrum::{Illuminant, Outside};
+    use spectrum::Illuminant;
 
     fn unit(light: Illuminant) -> Spectrum {
         let spectrum = light.spectrum();

@@ -56,6 +56,10 @@ impl FromScene for SpectralSurface {
                 };
                 Ok((surface, None))
             }
+            MaterialSpec::Model(m) => {
+                let options = MaterialOptions::of_model(m, SamplerName::Auto);
+                Ok((Self::of_model(&m.model, &options)?, None))
+            }
             _ => {
                 let (rgb, path) = Surface::of_spec(spec, places)?;
                 Ok((Self::of_rgb(rgb), path))

@@ -4,13 +4,14 @@ mod fixed;
 mod hero;
 mod sampler;
 
+use super::channels::Channels;
 use super::light;
 use crate::cache::Cache;
 use crate::error::Error;
 use crate::material::{LoadedMeasured, MaterialOptions, Surface, SurfaceForm};
 use brdf::{Brdf, Measured, Status};
 use brdf_measure::MERL_DIMS;
-use brdf_models::Lambert;
+use brdf_models::{Lambert, SpectralModel, parse_model};
 use brdf_table::{HalfDiffTable, Interpolation, PhiDomain};
 use glam::DVec3;
 use spectrum::{Basis, LinearUplift, RgbSpace, Spectrum};
@@ -27,6 +28,8 @@ enum Form {
     Grid(Arc<HalfDiffTable>, Interpolation),
     /// A model that knows linear sRGB alone.
     Rgb(Arc<dyn Brdf<3>>),
+    /// A model that knows wavelengths, and what it is in the bands of mixtures.
+    Model(SpectralModel, Arc<dyn Brdf<MIXING>>),
     /// Answers of its own, and a factor per channel.
     Measured(Arc<dyn Measured>, Vec<f64>),
     /// The same in all directions.
@@ -35,9 +38,12 @@ enum Form {
     Colour([f64; 3]),
 }
 
-/// Bands mixtures of spectra and colours are tabulated in, nm: Cornell's.
+/// How many bands mixtures of spectra and colours are tabulated in.
+const MIXING: usize = 31;
+
+/// Those bands, nm: Cornell's.
 fn mixing_bands() -> Vec<f64> {
-    (0..31).map(|k| 400.0 + 10.0 * f64::from(k)).collect()
+    (0..MIXING).map(|k| 400.0 + 10.0 * k as f64).collect()
 }
 
 fn srgb() -> Basis {
@@ -86,6 +92,26 @@ impl SpectralSurface {
             SurfaceForm::Brdf(brdf) => Form::Rgb(brdf),
         };
         Self { rgb, form }
+    }
+
+    /// A model evaluated exactly, at the wavelengths of the channels if it knows them.
+    ///
+    /// # Errors
+    /// As [`Surface::of_model`].
+    pub(crate) fn of_model(text: &str, options: &MaterialOptions) -> Result<Self, Error> {
+        let rgb = Surface::of_model(text, options)?;
+        // a factor by colour makes a table of it
+        let exact = matches!(rgb.form(), SurfaceForm::Brdf(_));
+        let spectral = parse_model(text).ok().and_then(|m| m.spectral());
+        Ok(match spectral.filter(|_| exact) {
+            Some(model) => {
+                let bands = Channels::new(Basis::Bands(mixing_bands()), &light::daylight());
+                let bands = bands.seeing(|seeing| model.in_channels(seeing));
+                let form = Form::Model(model, bands);
+                Self { rgb, form }
+            }
+            None => Self::of_rgb(rgb),
+        })
     }
 
     /// The same reflectance in all directions.
@@ -160,7 +186,7 @@ impl SpectralSurface {
         match &self.form {
             Form::Grid(table, _) => table.basis().clone(),
             Form::Measured(measured, _) => measured.basis().clone(),
-            Form::Flat(_) => Basis::Bands(mixing_bands()),
+            Form::Flat(_) | Form::Model(..) => Basis::Bands(mixing_bands()),
             Form::Rgb(_) | Form::Colour(_) => srgb(),
         }
     }
@@ -170,6 +196,7 @@ impl SpectralSurface {
         match &self.form {
             Form::Grid(table, interpolation) => return table.eval(wi, wo, *interpolation, out),
             Form::Rgb(brdf) => out.copy_from_slice(&brdf.eval(wi, wo)),
+            Form::Model(_, bands) => out.copy_from_slice(&bands.eval(wi, wo)),
             Form::Colour(_) => out.copy_from_slice(&self.rgb.brdf().eval(wi, wo)),
             Form::Measured(measured, factors) => {
                 let status = measured.eval_native(wi, wo, out);

@@ -461,3 +461,77 @@ fn wrong_spectra_are_refused_where_they_stand() {
     }
     assert!(message("radiance: 1, spectrum: Illuminant(\"D66\")").contains("D66"));
 }
+
+#[test]
+fn metals_have_the_index_of_every_channel() {
+    // a mirror of gold and one that reflects everything, in the same light: their ratio is the reflectance
+    let scene = |material: &str| {
+        format!(
+            r#"(
+    camera: (position: (0, 0, 4), target: (0, 0, 0), fov_y_deg: 5),
+    film: (width: 8, height: 8),
+    render: (spp: 64, depth: 2),
+    main_material: "metal",
+    materials: {{ "metal": Model(model: "{material}") }},
+    shapes: [(form: Quad(corner: (-1, -1, 0), edge_u: (2, 0, 0), edge_v: (0, 2, 0)), material: "metal")],
+    lights: [Constant(radiance: 1)],
+)"#
+        )
+    };
+    let mean = |planes: &SpectralPicture, c: usize| -> f64 {
+        planes.planes[c].iter().map(|v| f64::from(*v)).sum()
+    };
+    let gold = brdf_models::Substance::named("au").unwrap();
+    for name in [
+        SpectrumName::Eight,
+        SpectrumName::Sixteen,
+        SpectrumName::FortyFive,
+    ] {
+        let of = |material: &str| film(&scene(material), name, 2).spectral().unwrap();
+        let (metal, white) = (of("ggx:alpha=0.02,index=au"), of("ggx:alpha=0.02"));
+        let n = white.planes.len();
+        for c in 1..n - 1 {
+            let found = mean(&metal, c) / mean(&white, c);
+            let [from, to] = [metal.edges_nm[c], metal.edges_nm[c + 1]];
+            let steps = 64;
+            let exact = (0..steps).map(|k| {
+                let nm = from + (to - from) * (f64::from(k) + 0.5) / f64::from(steps);
+                let [n, k] = gold.at(nm);
+                brdf_models::Fresnel::from_index([n], [k]).eval(1.0)[0]
+            });
+            let exact = exact.sum::<f64>() / f64::from(steps);
+            // within 2.5 degrees of the normal; a bin's mean is weighted by what is seen, here it is not
+            let tolerance = 2e-3 + 2e-4 * (to - from);
+            assert!(
+                (found - exact).abs() < tolerance,
+                "{name} {c}: {found} {exact}"
+            );
+        }
+    }
+    let colour = |name| {
+        let rgb = film(&scene("ggx:alpha=0.02,index=cu"), name, 2)
+            .rgb()
+            .mean();
+        let sum: [f64; 3] = std::array::from_fn(|c| rgb.iter().map(|p| p[c]).sum());
+        sum.map(|v| v / rgb.len() as f64)
+    };
+    let rgb = colour(SpectrumName::Rgb);
+    for name in [
+        SpectrumName::Xyz,
+        SpectrumName::Eight,
+        SpectrumName::FortyFive,
+        SpectrumName::Hero,
+    ] {
+        let found = colour(name);
+        for c in 0..3 {
+            // one reflection of daylight: the colour is that of RGB, but for 64 rotations and the width of bins
+            let tolerance = if name == SpectrumName::Eight {
+                0.02
+            } else {
+                5e-3
+            };
+            let off = (found[c] - rgb[c]).abs();
+            assert!(off < tolerance, "{name}: {found:?} {rgb:?}");
+        }
+    }
+}

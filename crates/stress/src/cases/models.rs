@@ -27,20 +27,25 @@ fn of_model(info: &'static ModelInfo) -> Vec<Case> {
             tally.error(f64::INFINITY, || "no reference of 160 bits".into());
             return;
         };
-        each_pair(info, effort, |model, peak, wi, wo, place| {
-            let args = Args::new(&model.values, CHANNEL, wi, wo);
-            let f = model.built.brdf.eval(wi, wo)[CHANNEL];
-            let exact = (reference.f)(&args).to_f64();
-            compare(info, tally, [f, exact], FLOOR, peak, place);
-        });
+        each_pair(
+            info,
+            effort,
+            tally,
+            |tally, model, peak, [wi, wo], place| {
+                let args = Args::new(&model.values, CHANNEL, wi, wo);
+                let f = model.built.brdf.eval(wi, wo)[CHANNEL];
+                let exact = (reference.f)(&args).to_f64();
+                compare(info, tally, [f, exact], FLOOR, peak, place);
+            },
+        );
     })];
-    if let Some(pdf) = reference.and_then(|r| r.pdf) {
+    if let Some(pdf) = reference.map(|r| r.pdf) {
         all.push(Case::new(
             name("pdf"),
             1e-9,
             "as f",
             move |effort, tally| {
-                each_pair(info, effort, |model, _, wi, wo, place| {
+                each_pair(info, effort, tally, |tally, model, _, [wi, wo], place| {
                     let args = Args::new(&model.values, CHANNEL, wi, wo);
                     let value = model.built.sampler.pdf(wi, wo);
                     tally.value(value, pdf(&args).to_f64(), FLOOR, place);
@@ -138,22 +143,23 @@ fn step(effort: Effort) -> usize {
 fn each_pair(
     info: &'static ModelInfo,
     effort: Effort,
-    mut f: impl FnMut(&ParsedModel<3>, f64, DVec3, DVec3, &dyn Fn() -> String),
+    tally: &mut Tally,
+    f: impl Fn(&mut Tally, &ParsedModel<3>, f64, [DVec3; 2], &dyn Fn() -> String) + Sync,
 ) {
     let pairs = pairs(step(effort));
-    for model in settings(info) {
-        let peak = peak(&model, &pairs);
+    tally.each(&settings(info), |model, tally| {
+        let peak = peak(model, &pairs);
         for (wi, wo) in &pairs {
             let place = || format!("{model}, {}, wi {}, wo {wo}", wi.what, wi.w);
-            f(&model, peak, wi.w, *wo, &place);
+            f(tally, model, peak, [wi.w, *wo], &place);
         }
-    }
+    });
 }
 
 fn lanes(info: &'static ModelInfo, effort: Effort, tally: &mut Tally) {
     let pairs = pairs(step(effort));
-    for model in settings(info) {
-        let peak = peak(&model, &pairs);
+    tally.each(&settings(info), |model, tally| {
+        let peak = peak(model, &pairs);
         for chunk in pairs.chunks(LANES) {
             let (mut wi, mut wo) = (Lanes3::ZERO, Lanes3::ZERO);
             for (k, (i, o)) in chunk.iter().enumerate() {
@@ -175,7 +181,7 @@ fn lanes(info: &'static ModelInfo, effort: Effort, tally: &mut Tally) {
                 tally.value(f64::from(pdf[k]), exact, FLOOR_F32, || place("pdf"));
             }
         }
-    }
+    });
 }
 
 /// Numbers a sampler is driven with: the ends, and the middle.

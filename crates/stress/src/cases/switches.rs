@@ -212,10 +212,8 @@ fn against(text: &str, wi: DVec3, wo: DVec3, tally: &mut Tally) {
     let args = Args::new(&model.values, 0, wi, wo);
     let f = model.built.brdf.eval(wi, wo)[0];
     tally.value(f, (reference.f)(&args).to_f64(), 1e-60, place);
-    if let Some(pdf) = reference.pdf {
-        let value = model.built.sampler.pdf(wi, wo);
-        tally.value(value, pdf(&args).to_f64(), 1e-60, place);
-    }
+    let value = model.built.sampler.pdf(wi, wo);
+    tally.value(value, (reference.pdf)(&args).to_f64(), 1e-60, place);
 }
 
 fn colour(tally: &mut Tally) {

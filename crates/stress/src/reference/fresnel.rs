@@ -2,6 +2,7 @@
 
 use super::Args;
 use crate::real::Real;
+use brdf_models::Substance;
 
 /// (Rs + Rp)/2 of n + ik at cosine `c` and squared sine `s2`.
 ///
@@ -37,8 +38,18 @@ pub(crate) fn unpolarised(n: f64, k: f64, c: &Real, s2: &Real) -> Real {
 }
 
 impl Args<'_> {
-    /// The Fresnel term of a microfacet model at cosine `c` and squared sine `s2`, from whichever of f0, n and k was given.
+    /// The Fresnel term of a microfacet model at cosine `c` and squared sine `s2`, from whichever of f0, n and k, or
+    /// index was given.
     pub(super) fn fresnel(&self, channel: usize, c: &Real, s2: &Real) -> Real {
+        if let Some(substance) = self.values.choice("index").and_then(Substance::named) {
+            let seen = substance.srgb();
+            // the losses of the channel before, its own and of the one after, in a circle
+            let loss = |j: usize| {
+                let of = seen[(channel + 2 + j) % 3];
+                seen[channel].mix[j] * (1.0 - unpolarised(of.n, of.k, c, s2))
+            };
+            return 1.0 - (loss(0) + loss(1) + loss(2));
+        }
         let (n, k) = (self.values.get("n"), self.values.get("k"));
         if !n.is_empty() || !k.is_empty() {
             let or = |name, given: &[f64], otherwise: f64| {

@@ -130,32 +130,88 @@ fn strided(g: &Real, w: &Real, m0: f64) -> Real {
     peak.exp() * sum * stride
 }
 
-pub(super) fn he(a: &Args<'_>) -> Real {
-    let (sigma, tau) = (a.scalar("sigma"), a.scalar("tau"));
-    let m = 2.0 * Real::new(sigma) / tau;
-    let (i, o) = (smith(&a.wi, &m), smith(&a.wo, &m));
+/// S(i) S(o) and (sigma0/sigma)^2 = 1 + (z0/sigma0)^2.
+fn shared(a: &Args<'_>, wi: &Vector, wo: &Vector) -> (Real, Real) {
+    let m = 2.0 * Real::new(a.scalar("sigma")) / a.scalar("tau");
+    let (i, o) = (smith(wi, &m), smith(wo, &m));
     let shadow = |s: &Smith| (1.0 - &s.erfc * 0.5) * &s.g1;
-    let s = shadow(&i) * shadow(&o);
     let k = |w: &Vector, s: &Smith| w.sine() * w.length() / &w.z * &s.erfc;
-    let c = (k(&a.wi, &i) + k(&a.wo, &o)) / (8.0 * Real::pi()).sqrt();
-    // (sigma0/sigma)^2 = 1 + (z0/sigma0)^2
+    let c = (k(wi, &i) + k(wo, &o)) / (8.0 * Real::pi()).sqrt();
     let apparent = if c.is_positive() {
         1.0 + lambert_w(&c)
     } else {
         Real::new(1.0)
     };
-    let wave_number = 2.0 * Real::pi() / (Real::new(a.own("lambda")) / 1000.0);
+    (shadow(&i) * shadow(&o), apparent)
+}
+
+/// k = 2 pi/lambda, 1/um.
+fn wave_number(a: &Args<'_>, channel: usize) -> Real {
+    2.0 * Real::pi() / (Real::new(a.in_channel("lambda", channel)) / 1000.0)
+}
+
+/// tan^2 of the half vector.
+fn tan2(a: &Args<'_>) -> Real {
+    (a.half.x.sqr() + a.half.y.sqr()) / a.half.z.sqr()
+}
+
+pub(super) fn he(a: &Args<'_>) -> Real {
+    let (sigma, tau) = (a.scalar("sigma"), a.scalar("tau"));
+    let (s, apparent) = shared(a, &a.wi, &a.wo);
+    let wave_number = wave_number(a, a.channel);
     let g = (&wave_number * sigma * &a.half.z).sqr() / apparent;
     let k2_tau2 = (wave_number * tau).sqr();
     let w = &k2_tau2 * (a.half.x.sqr() + a.half.y.sqr()) * 0.25;
     let geometry = (a.len.sqr() / &a.half.z).sqr();
     let rough = geometry * k2_tau2 / 16.0 * series(&g, &w) / (Real::pi() * &a.wi.z * &a.wo.z);
     let width2 = Real::new(a.scalar("width")).sqr();
-    let tan2 = (a.half.x.sqr() + a.half.y.sqr()) / a.half.z.sqr();
     let mirror =
-        (-(tan2 / &width2)).exp() / (Real::pi() * width2) * a.len.sqr() / a.half.z.sqr().sqr();
+        (-(tan2(a) / &width2)).exp() / (Real::pi() * width2) * a.len.sqr() / a.half.z.sqr().sqr();
     let parts = a.scalar("mirror") * (-g).exp() * mirror + rough;
     a.diffuse() + a.own("ks") * a.fresnel(a.channel, &a.cos_d(), &a.sin2_d()) * s * parts
+}
+
+/// The density of its own sampler: lobes of Beckmann's normals for the mirror and for the directional-diffuse part,
+/// weighted by what each reflects toward the viewer, over at least a tenth of a cosine lobe.
+pub(super) fn he_pdf(a: &Args<'_>) -> Real {
+    let (shadow, apparent) = shared(a, &a.wo, &a.wo);
+    let (sigma, cos) = (a.scalar("sigma"), a.wo.z.min(&Real::new(1.0)));
+    let sin2 = 1.0 - cos.sqr();
+    let (mut mirror, mut rough, mut width2) = (Real::new(0.0), Real::new(0.0), Real::new(0.0));
+    let mut diffuse = 0.0;
+    for c in 0..3 {
+        let k = wave_number(a, c);
+        let e = (-((&k * sigma * 2.0 * &a.wo.z).sqr() / &apparent)).exp();
+        let weight = a.in_channel("ks", c) * a.fresnel(c, &cos, &sin2) * &shadow;
+        mirror = mirror + a.scalar("mirror") * &weight * &e;
+        rough = rough + weight * (1.0 - e);
+        width2 = width2 + (1.0 / (k * a.scalar("tau") * &a.wo.z)).sqr();
+        diffuse += a.in_channel("kd", c);
+    }
+    let slope2 = (2.0 * Real::new(sigma) / a.scalar("tau")).sqr();
+    let m = (slope2 / &apparent + width2 / 3.0).sqrt();
+    let m = m.max(&Real::new(1e-5)).min(&Real::new(1.0));
+    let lobes = &mirror + &rough;
+    let total = &lobes + diffuse;
+    let cosine = if total.is_positive() {
+        (1.0 - &lobes / &total).max(&Real::new(0.1))
+    } else {
+        Real::new(1.0)
+    };
+    let share = |part: Real| {
+        if lobes.is_positive() {
+            part / &lobes * (1.0 - &cosine)
+        } else {
+            Real::new(0.0)
+        }
+    };
+    let hz = a.hz();
+    let beckmann = |m2: Real| (-(tan2(a) / &m2)).exp() / (Real::pi() * m2 * hz.sqr().sqr());
+    let width2 = Real::new(a.scalar("width")).sqr();
+    // facets not weighted by what is seen of them, and those a viewer sees of grooves
+    let narrow = beckmann(width2) * &hz / (4.0 * a.cos_d());
+    let wide = a.groove(&a.wo.z) * beckmann(m.sqr()) / (4.0 * &a.wo.z);
+    share(mirror) * narrow + share(rough) * wide + cosine * &a.wi.z / Real::pi()
 }
 
 #[cfg(test)]

@@ -92,19 +92,15 @@ pub(crate) struct Args<'a> {
 /// A function of them.
 pub(crate) type Function = fn(&Args<'_>) -> Real;
 
-/// A model's reflectance in 1/sr, and the density of its own sampler in 1/sr if it has one with a closed form.
+/// A model's reflectance in 1/sr, and the density of its own sampler in 1/sr.
 pub(crate) struct Reference {
     pub(crate) model: &'static str,
     pub(crate) f: Function,
-    pub(crate) pdf: Option<Function>,
+    pub(crate) pdf: Function,
 }
 
 const fn reference(model: &'static str, f: Function, pdf: Function) -> Reference {
-    Reference {
-        model,
-        f,
-        pdf: Some(pdf),
-    }
+    Reference { model, f, pdf }
 }
 
 /// By name of the model; a test compares the list with the registry.
@@ -137,12 +133,7 @@ pub(crate) const REFERENCES: &[Reference] = &[
         phong::ashikhmin_lobe,
         phong::ashikhmin_lobe_pdf,
     ),
-    // its density is made of lobes chosen for convenience, not of anything published
-    Reference {
-        model: "he",
-        f: he::he,
-        pdf: None,
-    },
+    reference("he", he::he, he::he_pdf),
     reference("sgd", fitted::sgd, fitted::sgd_pdf),
     reference("abc", fitted::abc, fitted::abc_pdf),
     reference("koenderink", zernike::koenderink, diffuse::cosine),

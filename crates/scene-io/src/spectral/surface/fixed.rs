@@ -71,6 +71,10 @@ impl SpectralSurface {
                 let brdf = Spread::new(brdf, three(&srgb()));
                 paired(brdf, sampler)
             }
+            Form::Model(model, _) => {
+                let brdf = channels.seeing(|seeing| model.in_channels::<N>(seeing));
+                paired(brdf, sampler)
+            }
             Form::Measured(measured, factors) => {
                 let mut rows = rows(measured.basis());
                 for (row, factor) in rows.iter_mut().zip(factors) {

@@ -69,6 +69,10 @@ impl SpectralSurface {
                 let brdf = Rotated::new(brdf, Arc::new(first(tables(&srgb()))));
                 paired(brdf, sampler)
             }
+            Form::Model(model, _) => {
+                let brdf = channels.seeing(|seeing| model.hero(seeing));
+                paired(brdf, sampler)
+            }
             Form::Measured(measured, factors) => {
                 let mut tables = tables(measured.basis());
                 for (table, factor) in tables.iter_mut().zip(factors) {
