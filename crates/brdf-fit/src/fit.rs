@@ -24,7 +24,7 @@ const FIRST_LIMITS: Limits = Limits {
 };
 const SECOND_LIMITS: Limits = Limits {
     iterations: 30,
-    tolerance: 1e-8,
+    tolerance: 1e-6,
 };
 /// On more data the minimum moves by a standard error of the smaller set: a few Gauss-Newton steps reach it.
 const THIRD_LIMITS: Limits = Limits {

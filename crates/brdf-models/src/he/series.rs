@@ -53,10 +53,14 @@ fn direct(g: f64, w: f64, terms: usize) -> f64 {
     let mut sums = [0.0; WIDTH];
     for chunk in 0..terms.min(TERMS).div_ceil(WIDTH) {
         let first = chunk * WIDTH;
+        let (reciprocal, ln_factorial) = (
+            &RECIPROCAL[first..][..WIDTH],
+            &LN_FACTORIAL_M[first..][..WIDTH],
+        );
+        let base = first as f64 * ln_g - g;
         let mut x = [0.0; WIDTH];
         for k in 0..WIDTH {
-            let [m, reciprocal, ln_factorial] = TERM[first + k];
-            x[k] = m * ln_g - g - ln_factorial - w * reciprocal;
+            x[k] = base + (k + 1) as f64 * ln_g - ln_factorial[k] - w * reciprocal[k];
         }
         let e = exp(&x);
         for k in 0..WIDTH {
@@ -66,12 +70,12 @@ fn direct(g: f64, w: f64, terms: usize) -> f64 {
     sums.iter().sum()
 }
 
-/// m, 1/m and ln(m! m) at m - 1.
-const TERM: [[f64; 3]; TERMS] = {
-    let mut table = [[0.0; 3]; TERMS];
+/// 1/m at m - 1.
+const RECIPROCAL: [f64; TERMS] = {
+    let mut table = [0.0; TERMS];
     let mut m = 1;
     while m <= TERMS {
-        table[m - 1] = [m as f64, 1.0 / m as f64, LN_FACTORIAL_M[m - 1]];
+        table[m - 1] = 1.0 / m as f64;
         m += 1;
     }
     table

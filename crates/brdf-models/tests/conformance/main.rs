@@ -11,3 +11,4 @@ mod parsing;
 mod published;
 mod reciprocity;
 mod sampling;
+mod spectral;
