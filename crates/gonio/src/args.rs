@@ -8,7 +8,7 @@ use crate::verbs::samplers::Samplers;
 use crate::verbs::stress::Stress;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use scene_io::material::MaterialOptions;
-use scene_io::scene::{ColourChoice, FileScale, InterpolationName, Primaries, White};
+use scene_io::scene::{ColourChoice, FileScale, InterpolationName, MaterialSpec, Primaries, White};
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -90,6 +90,14 @@ impl Reading {
             interpolation: self.interpolation.unwrap_or(InterpolationName::Auto),
             colour: self.colour.choice(),
             ..MaterialOptions::default()
+        }
+    }
+
+    /// A material that is a file is read so; others stay.
+    pub(crate) fn apply(self, spec: &mut MaterialSpec) {
+        if let MaterialSpec::File(file) = spec {
+            file.interpolation = self.interpolation;
+            file.colour = self.colour.choice();
         }
     }
 }

@@ -3,7 +3,7 @@
 mod report;
 
 use super::Context;
-use crate::args::parse_size;
+use crate::args::{ColourArgs, parse_size};
 use crate::output::say;
 use crate::process;
 use anyhow::Result;
@@ -37,6 +37,8 @@ pub(crate) struct Converge {
     /// Interpolation of the main material's table.
     #[arg(long, value_name = "NAME")]
     pub(crate) interpolation: Option<InterpolationName>,
+    #[command(flatten)]
+    pub(crate) colour: ColourArgs,
     /// What is compared, comma separated.
     #[arg(
         long,
@@ -129,6 +131,7 @@ fn options(args: &Converge) -> Options {
                 .map(|m| MaterialSpec::from_argument(&m.to_string_lossy())),
             size: args.size,
             interpolation: args.interpolation,
+            colour: args.colour.choice(),
             ..Overrides::default()
         },
         seconds: args.seconds,

@@ -6,6 +6,7 @@ mod pictures;
 mod report;
 
 use super::Context;
+use crate::args::Reading;
 use crate::output::{Usage, say};
 use anyhow::Result;
 use brdf_fit::{Family, Metric, families, family};
@@ -51,6 +52,8 @@ pub(crate) struct Fit {
     /// Skips the picture of spheres.
     #[arg(long)]
     pub(crate) no_spheres: bool,
+    #[command(flatten)]
+    pub(crate) reading: Reading,
 }
 
 fn parse_cutoff(text: &str) -> Result<f64, String> {
@@ -67,7 +70,7 @@ pub(crate) fn run(context: &Context, args: &Fit) -> Result<()> {
         return folder::run(context, args, &families);
     }
     let source = match path {
-        Ok(path) => one::Source::File(path),
+        Ok(path) => one::Source::File(path, args.reading),
         // a model's name is no path; when it is neither, what was wrong with the model is the better message only
         // if it was meant as one
         Err(no_file) => match brdf_models::parse_model(&args.file) {

@@ -2,6 +2,7 @@
 
 use super::Context;
 use super::converge::parse_seconds;
+use crate::args::Reading;
 use anyhow::Result;
 use clap::Args;
 use scene_io::material::Surface;
@@ -31,6 +32,8 @@ pub(crate) struct Samplers {
     /// Seconds of drawing samples for each, about: slow ones get fewer samples.
     #[arg(long, value_name = "S", default_value_t = 4.0, allow_negative_numbers = true, value_parser = parse_seconds)]
     pub(crate) seconds: f64,
+    #[command(flatten)]
+    pub(crate) reading: Reading,
 }
 
 #[derive(Serialize)]
@@ -69,7 +72,8 @@ struct Method {
 }
 
 pub(crate) fn run(context: &Context, args: &Samplers) -> Result<()> {
-    let spec = MaterialSpec::from_argument(&args.material.to_string_lossy());
+    let mut spec = MaterialSpec::from_argument(&args.material.to_string_lossy());
+    args.reading.apply(&mut spec);
     let (surface, path) = Surface::of_spec(&spec, &context.places)?;
     let names = if args.methods.is_empty() {
         surface.samplers()

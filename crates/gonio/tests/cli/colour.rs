@@ -94,6 +94,19 @@ fn converting_mixing_and_plotting_read_files_as_said() {
 }
 
 #[test]
+fn fits_read_files_as_said() {
+    let bench = bench();
+    // f is 100 times the scale: albedo pi f
+    for (scale, albedo) in [("0.001", 0.314_159), ("0.002", 0.628_319)] {
+        let line =
+            format!("fit m.binary --models lambert --no-spheres --scale {scale} -o f{scale}");
+        let model = &bench.json(&line)["models"][0];
+        let text = model.to_string();
+        assert!(text.contains(&albedo.to_string()[..6]), "{scale}: {text}");
+    }
+}
+
+#[test]
 fn bad_colours_are_one_line() {
     let bench = bench();
     for (line, code, expected) in [
@@ -130,6 +143,16 @@ fn bad_colours_are_one_line() {
         ),
         (
             "eval s.brdf --white E --theta-i 1 --theta-o 1",
+            1,
+            "white: expected an RGB file",
+        ),
+        (
+            "samplers s.brdf --white E",
+            1,
+            "white: expected an RGB file",
+        ),
+        (
+            "converge --material s.brdf --white E --seconds 0.1 -o x",
             1,
             "white: expected an RGB file",
         ),

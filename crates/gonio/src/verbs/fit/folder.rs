@@ -28,7 +28,7 @@ pub(super) fn run(context: &Context, args: &Arguments, families: &[Box<dyn Famil
             .into_owned();
         let path = args.output.join(format!("{name}.json"));
         scene_io::write::check(&path)?;
-        let source = Source::File(file.clone());
+        let source = Source::File(file.clone(), args.reading);
         if let Some(report) = done_before(&path, &source.key(args, families)?) {
             kept += 1;
             reports.push(report);

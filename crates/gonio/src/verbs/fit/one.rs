@@ -2,6 +2,7 @@
 
 use super::report::{Exported, Model, Report};
 use super::{Fit as Arguments, Usage, pictures, progress};
+use crate::args::Reading;
 use crate::verbs::Context;
 use anyhow::{Result, bail};
 use brdf::{Brdf, Measured, Status};
@@ -9,7 +10,7 @@ use brdf_fit::export::exports;
 use brdf_fit::{Family, Fit, FitData, Samples, fit_all};
 use brdf_models::ParsedModel;
 use scene_io::load::{MAX_FILE_BYTES, bytes};
-use scene_io::material::{LoadedMeasured, MaterialOptions, Surface, load_measured};
+use scene_io::material::{LoadedMeasured, Surface, load_measured};
 use scene_io::sealed::content_hash;
 use std::path::{Path, PathBuf};
 
@@ -22,14 +23,14 @@ const EXPORT_PAIRS: usize = 1 << 14;
 
 /// What is fitted.
 pub(super) enum Source {
-    File(PathBuf),
+    File(PathBuf, Reading),
     Model(ParsedModel<3>),
 }
 
 impl Source {
     pub(super) fn name(&self) -> String {
         match self {
-            Self::File(path) => path.display().to_string(),
+            Self::File(path, _) => path.display().to_string(),
             Self::Model(model) => model.to_string(),
         }
     }
@@ -37,17 +38,18 @@ impl Source {
     /// Of the content and of everything asked, and of the program, whose fits may change.
     pub(super) fn key(&self, args: &Arguments, families: &[Box<dyn Family>]) -> Result<String> {
         let content = match self {
-            Self::File(path) => content_hash(&bytes(path, MAX_FILE_BYTES)?),
+            Self::File(path, _) => content_hash(&bytes(path, MAX_FILE_BYTES)?),
             Self::Model(model) => content_hash(model.to_string().as_bytes()),
         };
         let names: Vec<&str> = families.iter().map(|f| f.name()).collect();
         let asked = format!(
-            "{} {} {} {} {}",
+            "{} {} {} {} {} {:?}",
             env!("CARGO_PKG_VERSION"),
             args.metric,
             args.lobes,
             args.cutoff,
-            names.join(",")
+            names.join(","),
+            args.reading,
         );
         Ok(format!(
             "{content:016x}-{:016x}",
@@ -71,7 +73,7 @@ pub(super) fn fit_source(
     families: &[Box<dyn Family>],
 ) -> Result<Fitted> {
     let samples = match source {
-        Source::File(path) => of_file(context, path)?,
+        Source::File(path, reading) => of_file(context, path, *reading)?,
         Source::Model(model) => Samples::on_grid(DIMS, 3, |wi, wo, out| {
             out.copy_from_slice(&model.built.brdf.eval(wi, wo));
             true
@@ -113,8 +115,8 @@ pub(super) fn fit_source(
 }
 
 /// The measured cells of a grid, or the interpolant of scattered rows, in linear sRGB.
-fn of_file(context: &Context, path: &Path) -> Result<Samples> {
-    let options = MaterialOptions::default();
+fn of_file(context: &Context, path: &Path, reading: Reading) -> Result<Samples> {
+    let options = reading.options();
     let loaded = load_measured(path, &options)?;
     let surface = Surface::of_file(&loaded, &options, &context.places.cache)?;
     let brdf = surface.brdf();

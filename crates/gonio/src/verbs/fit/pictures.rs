@@ -1,7 +1,6 @@
 //! Fits beside the measurement: polar lobes and rendered spheres.
 
 use super::one::Source;
-use crate::args::Reading;
 use crate::verbs::Context;
 use crate::{curves, load};
 use anyhow::Result;
@@ -45,8 +44,8 @@ pub(super) fn polar(
         };
         let theta = f64::to_radians(deg);
         drawn.push(match source {
-            Source::File(path) => {
-                let loaded = load::measured(context, path, Reading::default())?;
+            Source::File(path, reading) => {
+                let loaded = load::measured(context, path, *reading)?;
                 curves::luminance_lobe(&*loaded.measured, &legend("data"), theta, [0, 0, 0])
             }
             Source::Model(model) => {
@@ -86,7 +85,7 @@ pub(super) fn spheres(
 ) -> Result<PathBuf> {
     let fits = &fits[..fits.len().min(SHOWN)];
     let mut materials = match source {
-        Source::File(path) => format!("        \"m0\": File(path: {:?}),\n", absolute(path)),
+        Source::File(path, _) => format!("        \"m0\": File(path: {:?}),\n", absolute(path)),
         Source::Model(model) => format!("        \"m0\": Model(model: \"{model}\"),\n"),
     };
     for (k, fit) in fits.iter().enumerate() {
@@ -119,7 +118,12 @@ pub(super) fn spheres(
 "
     );
     let path = folder.join("spheres.png");
-    let file = SceneFile::from_text(&text, &path, Path::new(""))?;
+    let mut file = SceneFile::from_text(&text, &path, Path::new(""))?;
+    if let Source::File(_, reading) = source {
+        // the fits are models: it is the only file
+        let materials = file.materials.values_mut();
+        materials.for_each(|spec| reading.apply(spec));
+    }
     let built = build_scene(file, &Overrides::default(), &context.places)?;
     let mut film = Film::new(built.size.0, built.size.1, 8);
     tracer::render(&built.scene, &built.settings, &mut film, &())?;
