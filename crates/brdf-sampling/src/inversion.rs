@@ -90,7 +90,7 @@ impl Inversion {
         let chart = Chart::new(frame.sin_o, frame.cos_o, self.r0);
         let value = |ab| {
             let p = chart.forward(ab);
-            target.f_cos(frame.to_world(p.wi), viewer) * p.jacobian
+            target.f_cos(frame.to_world(p.wi), viewer) * p.jacobian()
         };
         let mut masses: Vec<f64> = (0..self.cells())
             .map(|cell| self.root_mean_square(cell, &value))
@@ -100,7 +100,7 @@ impl Inversion {
             // nothing reflects here: the cosine, which the chart represents as well as anything
             let cosine = |ab| {
                 let p = chart.forward(ab);
-                p.wi.z * p.jacobian
+                p.wi.z * p.jacobian()
             };
             for (cell, m) in masses.iter_mut().enumerate() {
                 *m = self.root_mean_square(cell, &cosine);
@@ -180,7 +180,7 @@ impl DirectionSampler for Inversion {
         let p = Chart::new(frame.sin_o, frame.cos_o, self.r0).forward(ab);
         Some(DirectionSample {
             wi: frame.to_world(p.wi),
-            pdf: self.cell_density(&blend, i, j) / p.jacobian,
+            pdf: self.cell_density(&blend, i, j) * p.density,
         })
     }
 
@@ -192,7 +192,7 @@ impl DirectionSampler for Inversion {
         let p = Chart::new(frame.sin_o, frame.cos_o, self.r0).inverse(frame.to_local(wi));
         let i = ((p.ab.x * self.n_a as f64) as usize).min(self.n_a - 1);
         let j = ((p.ab.y * self.n_b as f64) as usize).min(self.n_b - 1);
-        self.cell_density(&self.grid.blend(wo), i, j) / p.jacobian
+        self.cell_density(&self.grid.blend(wo), i, j) * p.density
     }
 
     fn bytes(&self) -> usize {

@@ -35,6 +35,39 @@ pub(crate) fn pseudo_exp(l: f32) -> (f32, f32) {
     ((scale - 1.0) + scale * m, (1.0 + m) * d * d * FRAC_1_SQRT_2)
 }
 
+/// [`crate::pseudo_angle::quarters`] in f32.
+#[inline(always)]
+pub(crate) fn quarters(x: f32, y: f32) -> (f32, f32) {
+    let (ax, ay) = (x.abs(), y.abs());
+    let rho2 = (x * x + y * y).max(f32::MIN_POSITIVE);
+    let inv = 1.0 / (rho2 + SQRT_2 * (ax * ay));
+    let m = ay * (ay + FRAC_1_SQRT_2 * ax) * inv;
+    (if x < 0.0 { 2.0 - m } else { m }, rho2 * inv)
+}
+
+/// [`crate::pseudo_angle::quarters_of_cosine`] in f32.
+#[inline(always)]
+pub(crate) fn quarters_of_cosine(n: f32, d2: f32) -> f32 {
+    let (an, y2) = (n.abs(), (d2 - n * n).max(0.0));
+    let y = y2.sqrt();
+    let m = (y2 + FRAC_1_SQRT_2 * (an * y)) / (d2 + SQRT_2 * (an * y)).max(f32::MIN_POSITIVE);
+    (if n < 0.0 { 2.0 - m } else { m }).max(1e-5)
+}
+
+/// [`crate::pseudo_angle::circle`] in f32: cosine, sine and the fraction of the stretch.
+#[inline(always)]
+pub(crate) fn circle(q: f32) -> (f32, f32, [f32; 2]) {
+    let ahead = 1.0 - q.abs();
+    let w = 1.0 - 2.0 * ahead.abs();
+    let y = 1.0 + w;
+    let x = (1.0 - 0.5 * w * w).sqrt() - FRAC_1_SQRT_2 * w;
+    let n2 = x * x + y * y;
+    let inv = 1.0 / n2.sqrt();
+    let d = n2 + SQRT_2 * (x * y);
+    let stretch = [d * d, n2 * (2.0 * d - n2)];
+    ((x * inv).copysign(ahead), (y * inv).copysign(q), stretch)
+}
+
 /// Sine and cosine of 2 pi `turns`, for `turns` in [0, 1]: an octant either side of the nearest quarter turn, by the
 /// polynomials of Cephes, good to 1e-7.
 #[inline(always)]

@@ -23,6 +23,7 @@ mod hvt;
 mod inversion;
 mod known_grid;
 mod lane_math;
+mod pseudo_angle;
 mod pseudo_log;
 mod rejection;
 mod rejection_cache;

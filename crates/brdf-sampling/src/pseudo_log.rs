@@ -11,6 +11,8 @@
 use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
 const MANTISSA: u64 = (1 << 52) - 1;
+/// Doubles around it are whole.
+pub(crate) const LARGE: f64 = 1.5 * (1_u64 << 52) as f64;
 const ONE: u64 = 1023 << 52;
 
 /// L(x) and x L'(x), for x >= 1.
@@ -21,7 +23,7 @@ pub(crate) fn pseudo_log(x: f64) -> (f64, f64) {
     let m = f64::from_bits((bits & MANTISSA) | ONE) - 1.0;
     let inverse = 1.0 / (1.0 + (SQRT_2 - 1.0) * m);
     let slope = SQRT_2 * inverse;
-    (e + m * slope, (1.0 + m) * slope * inverse)
+    (e + (SQRT_2 * m) * inverse, (1.0 + m) * slope * inverse)
 }
 
 /// An x >= 1 and what goes with it.
@@ -36,11 +38,13 @@ pub(crate) struct Exponential {
 /// The x with L(x) = l, for 0 <= l < 1000.
 #[inline]
 pub(crate) fn pseudo_exp(l: f64) -> Exponential {
-    let e = l as i32;
-    let r = l - f64::from(e);
+    // whole numbers by rounding near a large one, whose low 32 bits are 0; at whole l either octave will do
+    let shifted = (l - 0.5) + LARGE;
+    let e = shifted.to_bits() as u32;
+    let r = l - (shifted - LARGE);
     let d = SQRT_2 - (SQRT_2 - 1.0) * r;
     let m = r / d;
-    let scale = f64::from_bits(((e + 1023) as u64) << 52);
+    let scale = f64::from_bits((u64::from(e) + 1023) << 52);
     Exponential {
         minus_one: (scale - 1.0) + scale * m,
         slope: (1.0 + m) * d * d * FRAC_1_SQRT_2,

@@ -238,10 +238,10 @@ impl DirectionSampler for Rejection {
         for (k, t) in self.grid.blend(wo) {
             if t > 0.0 {
                 let there = Slice::new(self.grid, k).chart().forward(here.ab);
-                sum += t * self.slice_pdf(k, there.wi) * there.jacobian;
+                sum += t * self.slice_pdf(k, there.wi) * there.jacobian();
             }
         }
-        FLOOR * cosine_pdf(wi) + (1.0 - FLOOR) * sum / here.jacobian
+        FLOOR * cosine_pdf(wi) + (1.0 - FLOOR) * sum * here.density
     }
 
     fn keeps_stratification(&self) -> bool {

@@ -89,7 +89,7 @@ impl Level {
                 let ab = DVec2::new(1.0 - x * x, (j as f64 + 0.5) / m as f64);
                 let p = chart.forward(ab);
                 let value = g(&p);
-                sum += 2.0 * x * value * p.jacobian;
+                sum += 2.0 * x * value * p.jacobian();
                 keep_highest(&mut best, (value / proposal(&p), ab));
             }
         }

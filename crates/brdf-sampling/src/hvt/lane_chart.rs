@@ -4,11 +4,16 @@
 //! with the f64 form to some 1e-7 / r0.
 
 use super::slices;
-use crate::lane_math::{F, TINY, ZERO, pseudo_exp, pseudo_log};
+use crate::lane_math::{
+    F, TINY, ZERO, circle, pseudo_exp, pseudo_log, quarters, quarters_of_cosine,
+};
 use brdf::{LANES, Lanes3};
 
 /// r0^2 and its inverse.
 pub(crate) type Scale2 = [f32; 2];
+
+/// 2 sqrt2: dphi/db is this times q_max / (g (2 - g)).
+const TURN: f32 = 2.0 * std::f32::consts::SQRT_2;
 
 /// Viewer-dependent quantities.
 pub(crate) struct Views {
@@ -66,14 +71,10 @@ pub(crate) fn forward(v: &Views, scale2: Scale2, points: &mut Points) -> Lanes3 
         let (minus_one, slope) = pseudo_exp(points.a[k] * v.span[k]);
         let r2 = scale2[0] * minus_one;
         let c = 1.0 - 0.5 * r2;
-        let s = (r2 * (1.0 - 0.25 * r2)).max(0.0).sqrt();
-        let max = half_max(v.sin_o[k], v.cos_o[k], s, c);
-        let t_max = (0.5 * max / (1.0 + (1.0 - max).sqrt())).sqrt();
-        let t = (2.0 * points.b[k] - 1.0) * t_max;
-        let cos_quarter = (1.0 - t * t).sqrt();
-        let sin_half = 2.0 * t * cos_quarter;
-        let sin_phi = 2.0 * sin_half * (1.0 - 2.0 * t * t);
-        let cos_phi = 1.0 - 2.0 * sin_half * sin_half;
+        let s2 = (r2 * (1.0 - 0.25 * r2)).max(0.0);
+        let s = s2.sqrt();
+        let q_max = rim(v.sin_o[k], v.cos_o[k], [s2, c * c], 1.0);
+        let (cos_phi, sin_phi, stretch) = circle((2.0 * points.b[k] - 1.0) * q_max);
         // wi = 2 (wo.h) h - wo is above the horizon, so wo.h is at least this; seen along the surface rounding takes
         // half vectors of narrow lobes below
         let least = 0.5 * v.cos_o[k] / c.max(v.cos_o[k]);
@@ -83,7 +84,8 @@ pub(crate) fn forward(v: &Views, scale2: Scale2, points: &mut Points) -> Lanes3 
         wi.x[k] = x * v.cos_phi[k] - side * v.sin_phi[k];
         wi.y[k] = x * v.sin_phi[k] + side * v.cos_phi[k];
         wi.z[k] = (2.0 * wo_h * c - v.cos_o[k]).max(TINY);
-        let jacobian = 16.0 * wo_h * (scale2[0] + r2) * v.span[k] * t_max / (slope * cos_quarter);
+        let radial = 2.0 * TURN * wo_h * (scale2[0] + r2) * v.span[k];
+        let jacobian = radial * q_max * stretch[0] / (slope * stretch[1]);
         points.jacobian[k] = jacobian.max(f32::MIN_POSITIVE);
     }
     wi
@@ -100,34 +102,25 @@ pub(crate) fn inverse(v: &Views, scale2: Scale2, wi: &Lanes3) -> Points {
         let hx = wi.x[k] * v.cos_phi[k] + wi.y[k] * v.sin_phi[k] + v.sin_o[k];
         let hy = wi.y[k] * v.cos_phi[k] - wi.x[k] * v.sin_phi[k];
         let hz = wi.z[k].max(0.0) + v.cos_o[k];
-        let xy2 = hx * hx + hy * hy;
-        let len2 = xy2 + hz * hz;
-        let (len, xy) = (len2.sqrt(), xy2.sqrt());
+        let (xy2, z2) = (hx * hx + hy * hy, hz * hz);
+        let len2 = xy2 + z2;
+        let len = len2.sqrt();
         let r2 = 2.0 * xy2 / (len2 + len * hz);
         let (l, slope) = pseudo_log(1.0 + r2 * scale2[1]);
-        let e = xy + hx.abs();
-        let inv = 1.0 / (2.0 * xy * e).max(f32::MIN_POSITIVE);
-        let (large, small) = ((e * e * inv).min(1.0), (hy * hy * inv).min(1.0));
-        let ahead = hx >= 0.0;
-        let cos2 = if ahead { large } else { small };
-        let sin2 = if ahead { small } else { large };
-        let max = half_max(v.sin_o[k], v.cos_o[k], xy, hz).max(sin2);
-        let one_plus_max = 1.0 + (1.0 - max).sqrt();
-        let one_plus = 1.0 + cos2.sqrt();
-        let ratio = (sin2 * one_plus_max / (one_plus * max)).sqrt().min(1.0);
-        let reach = (max / (one_plus_max * one_plus)).sqrt();
+        let (q, g) = quarters(hx, hy);
+        let q_max = rim(v.sin_o[k], v.cos_o[k], [xy2, z2], len2).max(q);
         p.a[k] = (l / v.span[k]).min(1.0);
-        p.b[k] = 0.5 + 0.5 * ratio.copysign(hy);
-        let jacobian = 8.0 * len * (scale2[0] + r2) * v.span[k] * reach / slope;
+        p.b[k] = 0.5 + (0.5 * q / q_max).copysign(hy);
+        let jacobian =
+            TURN * len * (scale2[0] + r2) * v.span[k] * q_max / (slope * (g * (2.0 - g)));
         p.jacobian[k] = jacobian.max(f32::MIN_POSITIVE);
     }
     p
 }
 
+/// [`crate::chart`]'s rim.
 #[inline(always)]
-fn half_max(sin_o: f32, cos_o: f32, s: f32, c: f32) -> f32 {
-    let n = -cos_o * (c - s) * (c + s);
-    let d = 2.0 * sin_o * s * c;
-    let rounding = 2e-7 * (s * s + c * c);
-    (0.5 * (d - n + rounding) / d.max(f32::MIN_POSITIVE)).clamp(1e-10, 1.0)
+fn rim(sin_o: f32, cos_o: f32, [s2, c2]: [f32; 2], unit: f32) -> f32 {
+    let n = cos_o * (s2 - c2) - 2e-7 * unit;
+    quarters_of_cosine(n, 4.0 * (sin_o * sin_o) * (s2 * c2))
 }

@@ -8,8 +8,24 @@ pub(crate) const MAX: f64 = 63488.0;
 
 /// The value of `q`.
 #[inline]
-pub(crate) fn decode(q: u8) -> f32 {
-    f32::from_bits((u32::from(q) << 19) + 0x3f80_0000)
+pub(crate) const fn decode(q: u8) -> f32 {
+    f32::from_bits(((q as u32) << 19) + 0x3f80_0000)
+}
+
+/// All values.
+static VALUES: [f32; 256] = {
+    let (mut values, mut q) = ([0.0; 256], 0);
+    while q < 256 {
+        values[q] = decode(q as u8);
+        q += 1;
+    }
+    values
+};
+
+/// [`decode`] by a table: one instruction where single nodes are wanted and not rows.
+#[inline(always)]
+pub(crate) fn look_up(q: u8) -> f32 {
+    VALUES[usize::from(q)]
 }
 
 /// The value of the lowest byte of `word`.
@@ -28,12 +44,13 @@ pub(crate) fn encode(value: f64) -> u8 {
 
 #[cfg(test)]
 mod tests {
-    use super::{MAX, decode, encode};
+    use super::{MAX, decode, encode, look_up};
 
     #[test]
     fn bytes_survive_and_values_round_to_the_nearest() {
         for q in 0..=255 {
             assert_eq!(encode(f64::from(decode(q))), q, "byte {q}");
+            assert_eq!(look_up(q).to_bits(), decode(q).to_bits(), "byte {q}");
         }
         assert_eq!(f64::from(decode(255)).to_bits(), MAX.to_bits(), "largest");
         for k in 0..5000 {

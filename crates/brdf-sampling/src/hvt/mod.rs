@@ -140,7 +140,7 @@ impl Hvt {
             let p = view.chart.forward(DVec2::new(hit.a, hit.b));
             return DirectionSample {
                 wi: o.frame().to_world(p.wi),
-                pdf: view.lobe * cosine_pdf(p.wi) + f64::from(hit.density) / p.jacobian,
+                pdf: view.lobe * cosine_pdf(p.wi) + f64::from(hit.density) * p.density,
             };
         }
         let wi = cosine_hemisphere(DVec2::new((u.x - body) / view.lobe, u.y));
@@ -152,9 +152,9 @@ impl Hvt {
 
     #[inline(always)]
     fn density<const S: usize>(&self, view: &View<S>, wi: DVec3, o: UnitView) -> f64 {
-        let (ab, jacobian) = view.chart.locate(o.half(wi), o.wo.truncate());
+        let (ab, density) = view.chart.locate(o.half(wi), o.wo.truncate());
         let body = f64::from(self.table.density(&view.place, ab.x, ab.y));
-        view.lobe * cosine_pdf(wi) + body / jacobian
+        view.lobe * cosine_pdf(wi) + body * density
     }
 
     #[inline(always)]

@@ -365,8 +365,9 @@ fn view(target: &Target<'_>, shape: Shape, r0: f64, m: usize, viewer: &Viewer) -
                 let (x, y) = place(p);
                 let ab = DVec2::new(i as f64 + x, j as f64 + y) / size;
                 let point = chart.forward(ab);
-                values.push(target.f_cos(frame.to_world(point.wi), wo) * point.jacobian);
-                d.push((point.wi.z * point.jacobian * std::f64::consts::FRAC_1_PI) as f32);
+                let jacobian = point.jacobian();
+                values.push(target.f_cos(frame.to_world(point.wi), wo) * jacobian);
+                d.push((point.wi.z * jacobian * std::f64::consts::FRAC_1_PI) as f32);
             }
         }
     }

@@ -67,8 +67,10 @@ impl Shape {
     /// azimuth, or with it.
     #[inline(always)]
     pub(crate) fn blend<const S: usize>(self, min_cos_h: f64, wo: DVec3) -> Blend<S> {
-        let x = slices::tau(min_cos_h) * (self.n_theta - 1) as f32;
-        let k = (x as u32).min(self.n_theta as u32 - 2);
+        // whole numbers of 32 bits: others take a branch on the way to f32
+        let last = self.n_theta as u32 - 1;
+        let x = slices::tau(min_cos_h) * last as f32;
+        let k = (x as u32).min(last - 1);
         let t = x - k as f32;
         let k = k as usize;
         let mut blend = Blend {

@@ -57,7 +57,7 @@ impl Validation {
                 Point {
                     wi,
                     f_cos: target.f_cos(wi, wo),
-                    area: p.jacobian / (n * m) as f64,
+                    area: p.jacobian() / (n * m) as f64,
                 }
             });
             (wo, points.collect::<Vec<_>>())
