@@ -16,9 +16,8 @@ const R0: f64 = 2e-3;
 pub(crate) trait Channels: Fn(DVec3, DVec3, &mut [f64]) + Sync {}
 impl<F: Fn(DVec3, DVec3, &mut [f64]) + Sync> Channels for F {}
 
-/// Rows are shifted against each other, so that azimuths with a period do not meet the same phase in all of them; as many
-/// to the left of the midpoint as to the right.
-const SHIFTS: [f64; 4] = [0.125, 0.625, 0.375, 0.875];
+/// The golden section: rows are shifted by its multiples, so that azimuths with a period do not meet the same phase in all.
+const GOLDEN: f64 = 0.618_033_988_75;
 
 /// Calls `visit(g, area)` for the points of a midpoint rule over the hemisphere of wi: g_c = f_c cos theta_i, 0 where
 /// that is negative or not finite, and the solid angle of the point.
@@ -35,7 +34,7 @@ fn for_each_point(
     for k in 0..n * m {
         // 1 - x^2 takes the square-root end at the rim away
         let x = ((k / m) as f64 + 0.5) / n as f64;
-        let shift = SHIFTS[k / m % SHIFTS.len()];
+        let shift = ((k / m) as f64 * GOLDEN).fract();
         let p = chart.forward(DVec2::new(1.0 - x * x, ((k % m) as f64 + shift) / m as f64));
         let wi = frame.to_world(p.wi);
         f(wi, wo, &mut g);

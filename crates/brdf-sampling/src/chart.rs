@@ -14,14 +14,20 @@
 //!
 //! J = dwi / (da db) = 4 (wo.h) (1/2 d(r^2)/da) (dphi/dq) (2 q_max).
 
-use crate::pseudo_angle::{circle, quarters, quarters_of_cosine};
-use crate::pseudo_log::{pseudo_exp, pseudo_log};
+use crate::pseudo_angle::Quarters;
+use crate::pseudo_log::{Logarithm, pseudo_exp, pseudo_log};
 use glam::{DVec2, DVec3};
 
 /// Keeps wi a hair above the horizon where rounding would drop it below.
 const MIN_COS: f64 = 1e-12;
 /// Added to the horizontal part of viewers, so that those straight along the normal have azimuth 0.
-const AHEAD: f64 = 1e-100;
+const AHEAD: f64 = 1e-30;
+/// Least product of the horizontal parts of viewer and half vector: keeps fractions defined where both are 0.
+const MIN_RHO: f64 = 1e-60;
+/// Least quarters to the rim, reached only at a = 1.
+const MIN_RIM: f64 = 1e-9;
+/// Bound of 1/J: the Jacobian vanishes at the rim, where rounding may also turn its sign.
+const MAX_DENSITY: f64 = 1e300;
 
 /// The chart of one viewer elevation.
 #[derive(Clone, Copy, Debug)]
@@ -32,9 +38,7 @@ pub(crate) struct Chart {
     scale2: f64,
     inv_scale2: f64,
     /// L(y_max): a times this is L(y).
-    span: f64,
-    /// Cosine of the largest theta_h: sqrt((1 - si) / 2).
-    pub(crate) min_cos_h: f64,
+    span: Logarithm,
 }
 
 /// A point of the chart in both descriptions.
@@ -56,14 +60,8 @@ impl ChartPoint {
     }
 }
 
-/// Bound of 1/J: the Jacobian vanishes at the rim, where rounding may also turn its sign.
-const MAX_DENSITY: f64 = 1e300;
-
-/// 2 sqrt2: dphi/db is this times q_max / (g (2 - g)).
-const TURN: f64 = 2.0 * std::f64::consts::SQRT_2;
-
-// What a density costs is the chain of roots and divisions, so each coordinate has as few as there can be one after
-// another, and none of the two waits for the other.
+// What a density costs is the chain of roots and divisions that wait for each other. So quotients stay fractions until
+// they are needed, each coordinate is divided once, and none of the two waits for the other.
 impl Chart {
     /// The chart of a viewer at sin/cos `sin_o`, `cos_o` > 0, with radial scale `r0` > 0, radians.
     #[inline]
@@ -75,37 +73,42 @@ impl Chart {
     /// [`Self::new`] from the square of the radial scale and its inverse.
     #[inline(always)]
     pub(crate) fn of(sin_o: f64, cos_o: f64, [scale2, inv_scale2]: [f64; 2]) -> Self {
+        // the cosine of the largest theta_h
         let min_cos_h = (0.5 - 0.5 * sin_o).max(0.0).sqrt();
-        let y_max = 1.0 + (2.0 - 2.0 * min_cos_h) * inv_scale2;
+        let y_max = (1.0 + 2.0 * inv_scale2) - (2.0 * inv_scale2) * min_cos_h;
         Self {
             sin_o,
             cos_o,
             scale2,
             inv_scale2,
-            span: pseudo_log(y_max).0,
-            min_cos_h,
+            span: pseudo_log(y_max),
         }
     }
 
     /// From the square to the hemisphere.
     #[inline(always)]
     pub(crate) fn forward(&self, ab: DVec2) -> ChartPoint {
-        let e = pseudo_exp(ab.x * self.span);
+        let span = self.span.num / self.span.den;
+        let e = pseudo_exp(ab.x * span);
         let r2 = self.scale2 * e.minus_one;
         let c = 1.0 - 0.5 * r2;
         let s2 = (r2 * (1.0 - 0.25 * r2)).max(0.0);
         let s = s2.sqrt();
-        let q_max = self.rim(s2, c * c, 1.0);
-        let phi = circle((2.0 * ab.y - 1.0) * q_max);
-        let wo_h = self.sin_o * s * phi.cos + self.cos_o * c;
+        let rim = self.rim([s2, c * c, 1.0], self.sin_o * s * c, self.sin_o);
+        let q = Quarters {
+            num: (2.0 * ab.y - 1.0) * rim.num,
+            ..rim
+        };
+        let ([cos_phi, sin_phi], [over, under]) = q.circle();
+        let wo_h = self.sin_o * s * cos_phi + self.cos_o * c;
+        let across = 2.0 * wo_h * s;
         let wi = DVec3::new(
-            2.0 * wo_h * s * phi.cos - self.sin_o,
-            2.0 * wo_h * s * phi.sin,
+            across * cos_phi - self.sin_o,
+            across * sin_phi,
             (2.0 * wo_h * c - self.cos_o).max(MIN_COS),
         );
-        let [over, under] = phi.stretch;
-        let radial = 2.0 * TURN * wo_h * (self.scale2 + r2) * self.span;
-        let density = e.slope * under / (radial * q_max * over);
+        let radial = 4.0 * (self.scale2 + r2) * span * rim.num;
+        let density = (e.slope * rim.den) * under / (radial * (wo_h * over));
         ChartPoint {
             wi,
             ab,
@@ -130,31 +133,41 @@ impl Chart {
         let len = len2.sqrt();
         // 2 (1 - cos theta_h) = 2 xy^2 / (len (len + hz))
         let r2 = 2.0 * xy2 / (len2 + len * h.z);
-        let (l, slope) = pseudo_log(1.0 + r2 * self.inv_scale2);
+        let l = pseudo_log(1.0 + r2 * self.inv_scale2);
         let vx = v.x + AHEAD;
+        let rho = ((vx * vx + v.y * v.y) * xy2).sqrt().max(MIN_RHO);
         let (dot, cross) = (h.x * vx + h.y * v.y, h.y * vx - h.x * v.y);
-        let (q, g) = quarters(dot, cross);
+        let q = Quarters::of(dot, cross.abs(), rho);
+        let rim = self.rim([xy2, z2, len2], rho * h.z, self.sin_o + AHEAD);
         // wi is above the horizon, so |q| <= q_max; at the rim rounding may say otherwise by far
-        let rim = self.rim(xy2, z2, len2);
-        let q_max = if rim > q { rim } else { q };
+        let here = q.num * rim.den;
+        let there = rim.num * q.den;
+        let there = if there > here { there } else { here };
         let ab = DVec2::new(
-            (l / self.span).min(1.0),
-            0.5 + (0.5 * q / q_max).copysign(cross),
+            (l.num * self.span.den / (l.den * self.span.num)).min(1.0),
+            0.5 + (0.5 * here / there).copysign(cross),
         );
-        // wo.h = |wi + wo| / 2
-        let radial = TURN * len * (self.scale2 + r2) * self.span;
-        let density = slope * (g * (2.0 - g)) / (radial * q_max);
-        (ab, density.abs().min(MAX_DENSITY))
+        // wo.h = |wi + wo| / 2, q_max = there / (q.den rim.den)
+        let over = (l.slope * self.span.den) * (Quarters::slope(dot, rho) * rim.den);
+        let radial = (2.0 * len) * (self.scale2 + r2) * self.span.num;
+        let under = (radial * (l.den * l.den)) * (q.den * there);
+        (ab, (over / under).abs().min(MAX_DENSITY))
     }
 
-    /// Quarters to the azimuth where wi meets the horizon, for the squares of sine and cosine of theta_h or any multiple
-    /// of both, `unit` being their sum. Seen from the normal d is 0 and the rim is where n is: a rounding is taken off so
-    /// that it stays on the inner side.
+    /// Quarters to the azimuth where wi meets the horizon, for the squares of sine and cosine of theta_h and their sum, or any
+    /// multiple of them; `half_d` is si s c in the same measure, with `si` in whatever measure that has. Seen from the
+    /// normal d is 0 and the rim is where n is: a rounding is taken off so that it stays on the inner side.
     #[inline(always)]
-    fn rim(&self, s2: f64, c2: f64, unit: f64) -> f64 {
+    fn rim(&self, [s2, c2, unit]: [f64; 3], half_d: f64, sin_o: f64) -> Quarters {
         let n = self.cos_o * (s2 - c2) - 1e-15 * unit;
-        let d2 = 4.0 * (self.sin_o * self.sin_o) * (s2 * c2);
-        quarters_of_cosine(n, d2)
+        let d2 = (4.0 * sin_o * sin_o) * (s2 * c2);
+        let y = (d2 - n * n).max(0.0).sqrt();
+        let q = Quarters::of(n, y, 2.0 * half_d);
+        let least = MIN_RIM * q.den;
+        Quarters {
+            num: if q.num > least { q.num } else { least },
+            ..q
+        }
     }
 }
 

@@ -49,6 +49,7 @@ impl DirectionSampler for Cosine {
 const MIN_COS: f64 = 1e-12;
 
 /// Malley's method in polar form: sin^2 theta = u.x, phi = 2 pi u.y.
+#[inline(always)]
 pub(crate) fn cosine_hemisphere(u: DVec2) -> DVec3 {
     let s = u.x.max(0.0).sqrt();
     let (sp, cp) = (TAU * u.y).sin_cos();
@@ -56,7 +57,7 @@ pub(crate) fn cosine_hemisphere(u: DVec2) -> DVec3 {
 }
 
 /// cos theta_i / pi above the horizon.
-#[inline]
+#[inline(always)]
 pub(crate) fn cosine_pdf(wi: DVec3) -> f64 {
     wi.z.max(0.0) * FRAC_1_PI
 }

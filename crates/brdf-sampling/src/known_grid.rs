@@ -69,7 +69,7 @@ impl KnownGrid {
 
 /// What makes a vector of squared length near 1 a unit vector: 1 / sqrt(x) to first order. Directions arrive
 /// rounded to f32, and unequal lengths of wi and wo would tilt the half vector.
-#[inline]
+#[inline(always)]
 fn unit_factor(length_squared: f64) -> f64 {
     1.5 - 0.5 * length_squared
 }
@@ -82,7 +82,7 @@ pub(crate) struct UnitView {
 }
 
 impl UnitView {
-    #[inline]
+    #[inline(always)]
     pub(crate) fn new(wo: DVec3) -> Self {
         let r2 = wo.x * wo.x + wo.y * wo.y;
         let unit = unit_factor(r2 + wo.z * wo.z);
@@ -93,13 +93,13 @@ impl UnitView {
     }
 
     /// wi + wo, both made unit vectors to first order.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn half(self, wi: DVec3) -> DVec3 {
         unit_factor(wi.length_squared()) * wi + self.wo
     }
 
     /// Elevation and azimuth; azimuth 0 straight along the normal.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn frame(self) -> ViewFrame {
         let (cos_phi, sin_phi) = if self.sin_o > 0.0 {
             let inv = 1.0 / self.sin_o;
@@ -127,7 +127,7 @@ pub(crate) struct ViewFrame {
 }
 
 impl ViewFrame {
-    #[inline]
+    #[inline(always)]
     pub(crate) fn new(wo: DVec3) -> Self {
         UnitView::new(wo).frame()
     }
@@ -154,7 +154,7 @@ impl ViewFrame {
             )
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn to_world(self, w: DVec3) -> DVec3 {
         DVec3::new(
             w.x * self.cos_phi - w.y * self.sin_phi,

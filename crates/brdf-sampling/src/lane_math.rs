@@ -35,37 +35,30 @@ pub(crate) fn pseudo_exp(l: f32) -> (f32, f32) {
     ((scale - 1.0) + scale * m, (1.0 + m) * d * d * FRAC_1_SQRT_2)
 }
 
-/// [`crate::pseudo_angle::quarters`] in f32.
+/// [`crate::pseudo_angle::Quarters::of`] in f32: numerator and denominator.
 #[inline(always)]
-pub(crate) fn quarters(x: f32, y: f32) -> (f32, f32) {
-    let (ax, ay) = (x.abs(), y.abs());
-    let rho2 = (x * x + y * y).max(f32::MIN_POSITIVE);
-    let inv = 1.0 / (rho2 + SQRT_2 * (ax * ay));
-    let m = ay * (ay + FRAC_1_SQRT_2 * ax) * inv;
-    (if x < 0.0 { 2.0 - m } else { m }, rho2 * inv)
+pub(crate) fn quarters(x: f32, y: f32, rho: f32) -> [f32; 2] {
+    let den = rho + FRAC_1_SQRT_2 * x.abs();
+    [(den - den.copysign(x)) + y.copysign(x), den]
 }
 
-/// [`crate::pseudo_angle::quarters_of_cosine`] in f32.
+/// [`crate::pseudo_angle::Quarters::slope`] in f32.
 #[inline(always)]
-pub(crate) fn quarters_of_cosine(n: f32, d2: f32) -> f32 {
-    let (an, y2) = (n.abs(), (d2 - n * n).max(0.0));
-    let y = y2.sqrt();
-    let m = (y2 + FRAC_1_SQRT_2 * (an * y)) / (d2 + SQRT_2 * (an * y)).max(f32::MIN_POSITIVE);
-    (if n < 0.0 { 2.0 - m } else { m }).max(1e-5)
+pub(crate) fn quarters_slope(x: f32, rho: f32) -> f32 {
+    (x.abs() + FRAC_1_SQRT_2 * rho) * rho
 }
 
-/// [`crate::pseudo_angle::circle`] in f32: cosine, sine and the fraction of the stretch.
+/// [`crate::pseudo_angle::Quarters::circle`] in f32: cosine, sine and dphi/dq.
 #[inline(always)]
-pub(crate) fn circle(q: f32) -> (f32, f32, [f32; 2]) {
-    let ahead = 1.0 - q.abs();
-    let w = 1.0 - 2.0 * ahead.abs();
-    let y = 1.0 + w;
-    let x = (1.0 - 0.5 * w * w).sqrt() - FRAC_1_SQRT_2 * w;
-    let n2 = x * x + y * y;
-    let inv = 1.0 / n2.sqrt();
-    let d = n2 + SQRT_2 * (x * y);
-    let stretch = [d * d, n2 * (2.0 * d - n2)];
-    ((x * inv).copysign(ahead), (y * inv).copysign(q), stretch)
+pub(crate) fn circle(num: f32, den: f32) -> (f32, f32, f32) {
+    let ahead = den - num.abs();
+    let m = den - ahead.abs();
+    let (m2, den2) = (m * m, den * den);
+    let x = (den * (den2 - 0.5 * m2).sqrt() - FRAC_1_SQRT_2 * m2) / (den2 + 0.5 * m2);
+    let reach = 1.0 + FRAC_1_SQRT_2 * x;
+    let y = m / den * reach;
+    let stretch = reach * reach / (x + FRAC_1_SQRT_2);
+    (x.copysign(ahead), y.copysign(num), stretch)
 }
 
 /// Sine and cosine of 2 pi `turns`, for `turns` in [0, 1]: an octant either side of the nearest quarter turn, by the

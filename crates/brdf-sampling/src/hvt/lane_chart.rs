@@ -4,16 +4,11 @@
 //! with the f64 form to some 1e-7 / r0.
 
 use super::slices;
-use crate::lane_math::{
-    F, TINY, ZERO, circle, pseudo_exp, pseudo_log, quarters, quarters_of_cosine,
-};
+use crate::lane_math::{F, TINY, ZERO, circle, pseudo_exp, pseudo_log, quarters, quarters_slope};
 use brdf::{LANES, Lanes3};
 
 /// r0^2 and its inverse.
 pub(crate) type Scale2 = [f32; 2];
-
-/// 2 sqrt2: dphi/db is this times q_max / (g (2 - g)).
-const TURN: f32 = 2.0 * std::f32::consts::SQRT_2;
 
 /// Viewer-dependent quantities.
 pub(crate) struct Views {
@@ -48,7 +43,7 @@ impl Views {
             // 1 - s without cancellation near grazing
             let min_cos_h = (0.5 * c * c / (1.0 + s)).sqrt();
             v.span[k] = pseudo_log(1.0 + (2.0 - 2.0 * min_cos_h) * scale2[1]).0;
-            v.tau[k] = slices::tau_f32(min_cos_h);
+            v.tau[k] = slices::tau(s, c);
             v.sin_o[k] = s;
             v.cos_o[k] = c;
         }
@@ -73,8 +68,8 @@ pub(crate) fn forward(v: &Views, scale2: Scale2, points: &mut Points) -> Lanes3 
         let c = 1.0 - 0.5 * r2;
         let s2 = (r2 * (1.0 - 0.25 * r2)).max(0.0);
         let s = s2.sqrt();
-        let q_max = rim(v.sin_o[k], v.cos_o[k], [s2, c * c], 1.0);
-        let (cos_phi, sin_phi, stretch) = circle((2.0 * points.b[k] - 1.0) * q_max);
+        let [rim, den] = rim(v.sin_o[k], v.cos_o[k], [s2, c * c], s * c);
+        let (cos_phi, sin_phi, stretch) = circle((2.0 * points.b[k] - 1.0) * rim, den);
         // wi = 2 (wo.h) h - wo is above the horizon, so wo.h is at least this; seen along the surface rounding takes
         // half vectors of narrow lobes below
         let least = 0.5 * v.cos_o[k] / c.max(v.cos_o[k]);
@@ -84,8 +79,8 @@ pub(crate) fn forward(v: &Views, scale2: Scale2, points: &mut Points) -> Lanes3 
         wi.x[k] = x * v.cos_phi[k] - side * v.sin_phi[k];
         wi.y[k] = x * v.sin_phi[k] + side * v.cos_phi[k];
         wi.z[k] = (2.0 * wo_h * c - v.cos_o[k]).max(TINY);
-        let radial = 2.0 * TURN * wo_h * (scale2[0] + r2) * v.span[k];
-        let jacobian = radial * q_max * stretch[0] / (slope * stretch[1]);
+        let radial = 4.0 * wo_h * (scale2[0] + r2) * v.span[k];
+        let jacobian = radial * rim * stretch / (slope * den);
         points.jacobian[k] = jacobian.max(f32::MIN_POSITIVE);
     }
     wi
@@ -107,20 +102,26 @@ pub(crate) fn inverse(v: &Views, scale2: Scale2, wi: &Lanes3) -> Points {
         let len = len2.sqrt();
         let r2 = 2.0 * xy2 / (len2 + len * hz);
         let (l, slope) = pseudo_log(1.0 + r2 * scale2[1]);
-        let (q, g) = quarters(hx, hy);
-        let q_max = rim(v.sin_o[k], v.cos_o[k], [xy2, z2], len2).max(q);
+        let rho = xy2.sqrt().max(TINY);
+        let [q, den] = quarters(hx, hy.abs(), rho);
+        let [rim, rim_den] = rim(v.sin_o[k], v.cos_o[k], [xy2, z2], rho * hz);
+        let here = q * rim_den;
+        let there = (rim * den).max(here);
         p.a[k] = (l / v.span[k]).min(1.0);
-        p.b[k] = 0.5 + (0.5 * q / q_max).copysign(hy);
-        let jacobian =
-            TURN * len * (scale2[0] + r2) * v.span[k] * q_max / (slope * (g * (2.0 - g)));
+        p.b[k] = 0.5 + (0.5 * here / there).copysign(hy);
+        let radial = 2.0 * len * (scale2[0] + r2) * v.span[k];
+        let jacobian = radial * there * den / (slope * (quarters_slope(hx, rho) * rim_den));
         p.jacobian[k] = jacobian.max(f32::MIN_POSITIVE);
     }
     p
 }
 
-/// [`crate::chart`]'s rim.
+/// [`crate::chart`]'s rim: numerator and denominator of the quarters; `sc` is s c.
 #[inline(always)]
-fn rim(sin_o: f32, cos_o: f32, [s2, c2]: [f32; 2], unit: f32) -> f32 {
-    let n = cos_o * (s2 - c2) - 2e-7 * unit;
-    quarters_of_cosine(n, 4.0 * (sin_o * sin_o) * (s2 * c2))
+fn rim(sin_o: f32, cos_o: f32, [s2, c2]: [f32; 2], sc: f32) -> [f32; 2] {
+    let n = cos_o * (s2 - c2) - 2e-7 * (s2 + c2);
+    let d2 = 4.0 * (sin_o * sin_o) * (s2 * c2);
+    let y = (d2 - n * n).max(0.0).sqrt();
+    let [num, den] = quarters(n, y, 2.0 * sin_o * sc);
+    [num.max(1e-5 * den), den]
 }

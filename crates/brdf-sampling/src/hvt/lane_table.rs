@@ -2,7 +2,7 @@
 
 use super::minifloat::decode_low_byte;
 use super::options::MAX_B;
-use super::table::{Table, linear};
+use super::table::{SPAN, Table, linear_at};
 use crate::lane_math::{F, ZERO};
 use brdf::{LANES, Lanes3};
 
@@ -111,20 +111,18 @@ pub(super) struct Hit {
 /// The points whose marginal mass is `u` of a and whose conditional mass fraction is `v` of b; `u` in [0, 1 - lobe).
 #[inline(always)]
 pub(super) fn invert<const S: usize>(table: &Table, places: &Places<S>, u: &F, v: &F) -> Hit {
-    let (row, fraction) = row_of(table, places, u);
+    let (row, x, mass) = row_of(table, places, u);
     let rows = Rows::new(table, places, &row);
     let nb = table.shape.n_b;
-    let (mut x, mut target) = (ZERO, ZERO);
+    let (mut target, unit) = (ZERO, 2.0 * table.shape.cells() as f32);
     for k in 0..LANES {
-        let [low, high] = [rows.mass[0][k], rows.mass[1][k]];
-        x[k] = linear(low, high, fraction[k]);
-        target[k] = v[k] * (low + x[k] * (high - low));
+        target[k] = v[k] * (mass[k] * unit);
     }
     // columns whose mass, with all before them, is not above the target lie before the point
     let (mut at, mut below, mut column) = (ZERO, ZERO, [0_u32; LANES]);
     for j in 1..nb - 1 {
         for k in 0..LANES {
-            at[k] += 0.5 * (rows.at(j - 1, x[k], k) + rows.at(j, x[k], k));
+            at[k] += rows.at(j - 1, x[k], k) + rows.at(j, x[k], k);
             let passed = at[k] <= target[k];
             column[k] += u32::from(passed);
             below[k] = below[k].max(if passed { at[k] } else { 0.0 });
@@ -142,8 +140,7 @@ pub(super) fn invert<const S: usize>(table: &Table, places: &Places<S>, u: &F, v
     };
     let (scale_a, scale_b) = (1.0 / (table.shape.n_a - 1) as f32, 1.0 / (nb - 1) as f32);
     for k in 0..LANES {
-        let part = (target[k] - below[k]) / (0.5 * (left[k] + right[k]));
-        let y = linear(left[k], right[k], part.clamp(0.0, 1.0));
+        let y = linear_at(left[k], right[k], target[k] - below[k]);
         hit.a[k] = (row[k] as f32 + x[k]) * scale_a;
         hit.b[k] = (column[k] as f32 + y) * scale_b;
         hit.density[k] = left[k] + y * (right[k] - left[k]);
@@ -151,38 +148,63 @@ pub(super) fn invert<const S: usize>(table: &Table, places: &Places<S>, u: &F, v
     hit
 }
 
-/// The interval of rows in which the blended marginal reaches `u`, and the fraction of its mass.
+/// The interval of rows in which the blended marginal reaches `u`, the place in it, and the mass of a row there: as
+/// the scalar form finds it.
 #[inline(always)]
-fn row_of<const S: usize>(table: &Table, places: &Places<S>, u: &F) -> (Index, F) {
-    let (mut at, mut len) = ([0; LANES], table.shape.n_a - 1);
-    while len > 1 {
-        let half = len / 2;
-        let mass = below(table, places, &at, half);
+fn row_of<const S: usize>(table: &Table, places: &Places<S>, u: &F) -> (Index, F, F) {
+    let (starts, n) = table.starts();
+    let (mut first, mut below) = ([0_u32; LANES], ZERO);
+    for block in 0..(table.shape.n_a - 2) / SPAN {
+        let mass = blended(places, starts, n, &[block as u32; LANES]);
         for k in 0..LANES {
-            at[k] += if mass[k] <= u[k] { half as u32 } else { 0 };
+            let passed = mass[k] <= u[k];
+            first[k] += if passed { SPAN as u32 } else { 0 };
+            below[k] = below[k].max(if passed { mass[k] } else { 0.0 });
         }
-        len -= half;
     }
-    let (low, high) = (below(table, places, &at, 0), below(table, places, &at, 1));
-    let mut fraction = ZERO;
+    let mut rows = [ZERO; SPAN + 1];
+    for (o, row) in rows.iter_mut().enumerate() {
+        let at = first.map(|f| f + o as u32);
+        *row = blended(places, table.rows(), table.shape.n_a, &at);
+    }
+    let (mut target, mut at, mut under, mut cell) = (ZERO, ZERO, ZERO, [0_u32; LANES]);
     for k in 0..LANES {
-        fraction[k] = ((u[k] - low[k]) / (high[k] - low[k])).clamp(0.0, 1.0);
+        target[k] = 2.0 * (u[k] - below[k]);
     }
-    (at, fraction)
+    let last = table.shape.n_a as u32 - 2;
+    for o in 0..SPAN - 1 {
+        for k in 0..LANES {
+            at[k] += rows[o][k] + rows[o + 1][k];
+            let passed = at[k] <= target[k] && first[k] + (o as u32) < last;
+            cell[k] += u32::from(passed);
+            under[k] = under[k].max(if passed { at[k] } else { 0.0 });
+        }
+    }
+    let (mut low, mut high) = (ZERO, ZERO);
+    for k in 0..LANES {
+        let j = (cell[k] as usize).min(SPAN - 1);
+        (low[k], high[k]) = (rows[j][k], rows[j + 1][k]);
+    }
+    let (mut x, mut mass) = (ZERO, ZERO);
+    for k in 0..LANES {
+        x[k] = linear_at(low[k], high[k], target[k] - under[k]);
+        mass[k] = low[k] + x[k] * (high[k] - low[k]);
+        first[k] += cell[k];
+    }
+    (first, x, mass)
 }
 
-/// Blended mass below row `at + offset`.
+/// Entries number `at` of lists with `n` entries a slice, blended.
 #[inline(always)]
-fn below<const S: usize>(table: &Table, places: &Places<S>, at: &Index, offset: usize) -> F {
-    let na = table.shape.n_a;
+fn blended<const S: usize>(places: &Places<S>, lists: &[f32], n: usize, at: &Index) -> F {
     let mut out = ZERO;
     for s in 0..S {
-        let mut mass = ZERO;
+        let mut value = ZERO;
         for k in 0..LANES {
-            mass[k] = table.below()[places.slice[s][k] as usize * na + at[k] as usize + offset];
+            value[k] = lists[places.slice[s][k] as usize * n + at[k] as usize];
         }
         for k in 0..LANES {
-            out[k] += places.weight[s][k] * mass[k];
+            out[k] += places.weight[s][k] * value[k];
         }
     }
     out
@@ -192,8 +214,6 @@ fn below<const S: usize>(table: &Table, places: &Places<S>, at: &Index, offset: 
 struct Rows {
     low: [F; MAX_B],
     high: [F; MAX_B],
-    /// Their integrals, in columns.
-    mass: [F; 2],
 }
 
 impl Rows {
@@ -209,7 +229,6 @@ impl Rows {
         let mut rows = Self {
             low: [ZERO; MAX_B],
             high: [ZERO; MAX_B],
-            mass: [ZERO; 2],
         };
         for group in 0..nb / WORD {
             for s in 0..S {
@@ -229,14 +248,6 @@ impl Rows {
                         rows.low[j][k] += f * decode_low_byte(words[0][k] >> shift);
                         rows.high[j][k] += f * decode_low_byte(words[1][k] >> shift);
                     }
-                }
-            }
-            for j in WORD * group..WORD * (group + 1) {
-                // the trapezoid rule: half weights at both ends
-                let weight = if j == 0 || j + 1 == nb { 0.5 } else { 1.0 };
-                for k in 0..LANES {
-                    rows.mass[0][k] += weight * rows.low[j][k];
-                    rows.mass[1][k] += weight * rows.high[j][k];
                 }
             }
         }

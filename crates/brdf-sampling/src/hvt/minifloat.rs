@@ -7,7 +7,7 @@
 pub(crate) const MAX: f64 = 63488.0;
 
 /// The value of `q`.
-#[inline]
+#[inline(always)]
 pub(crate) const fn decode(q: u8) -> f32 {
     f32::from_bits(((q as u32) << 19) + 0x3f80_0000)
 }

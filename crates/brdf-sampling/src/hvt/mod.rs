@@ -27,6 +27,7 @@ use brdf::{DirectionSample, DirectionSampler, LANES, Lanes3, SampleLanes};
 use glam::{DVec2, DVec3};
 use optimise::{Effort, optimise};
 use problem::{Problem, Unknowns};
+use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 use shape::{Blend, Shape};
 use table::{Place, Table};
@@ -47,12 +48,14 @@ pub struct Hvt {
     /// r0^2 and its inverse.
     scale2: [f64; 2],
     predicted: f64,
+    /// The widest instructions of this machine.
+    arch: Arch,
 }
 
 /// The slice below a viewer among `n` slices even in tau, and the weight of the one above.
 pub(crate) fn slice_blend(wo: DVec3, n: usize) -> (usize, f64) {
     let sin_o = wo.x.hypot(wo.y).min(1.0);
-    let tau = slices::tau((0.5 - 0.5 * sin_o).sqrt());
+    let tau = slices::tau(sin_o as f32, wo.z as f32);
     slices::blend(f64::from(tau), n)
 }
 
@@ -74,7 +77,7 @@ impl Hvt {
             Some(r0) => r0.clamp(1e-4, 1.0),
             None => best_scale(&target, shape),
         };
-        let problem = Problem::new(&target, shape, r0, 2);
+        let problem = Problem::new(&target, shape, r0, 3);
         let (x, value) = if problem.is_empty() {
             let cosine = Unknowns {
                 nodes: vec![1e-3; shape.nodes()],
@@ -93,6 +96,7 @@ impl Hvt {
             r0,
             scale2: [r0 * r0, 1.0 / (r0 * r0)],
             predicted,
+            arch: Arch::new(),
         }
     }
 
@@ -121,7 +125,7 @@ impl Hvt {
     #[inline(always)]
     fn view<const S: usize>(&self, o: UnitView) -> View<S> {
         let chart = Chart::of(o.sin_o, o.wo.z, self.scale2);
-        let blend: Blend<S> = self.table.shape.blend(chart.min_cos_h, o.wo);
+        let blend: Blend<S> = self.table.shape.blend(o.sin_o, o.wo);
         let place = self.table.place(blend);
         View {
             chart,
@@ -164,6 +168,40 @@ impl Hvt {
     }
 }
 
+/// A direction drawn by the widest instructions: fused products and rows of sixteen nodes in one or two registers.
+struct Sample<'a>(&'a Hvt, DVec3, DVec2);
+
+impl WithSimd for Sample<'_> {
+    type Output = DirectionSample;
+
+    #[inline(always)]
+    fn with_simd<T: Simd>(self, _: T) -> DirectionSample {
+        let Self(hvt, wo, u) = self;
+        if hvt.table.shape.n_phi == 1 {
+            hvt.sample_among::<2>(wo, u)
+        } else {
+            hvt.sample_among::<4>(wo, u)
+        }
+    }
+}
+
+/// A density by the widest instructions.
+struct Density<'a>(&'a Hvt, DVec3, DVec3);
+
+impl WithSimd for Density<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<T: Simd>(self, _: T) -> f64 {
+        let Self(hvt, wi, wo) = self;
+        if hvt.table.shape.n_phi == 1 {
+            hvt.pdf_among::<2>(wi, wo)
+        } else {
+            hvt.pdf_among::<4>(wi, wo)
+        }
+    }
+}
+
 /// The scale whose coarse table has the least variance at the validation points.
 fn best_scale(target: &Target<'_>, shape: Shape) -> f64 {
     let coarse = Shape {
@@ -203,28 +241,15 @@ fn best_scale(target: &Target<'_>, shape: Shape) -> f64 {
 }
 
 impl DirectionSampler for Hvt {
-    #[inline]
     fn sample(&self, wo: DVec3, u: DVec2) -> Option<DirectionSample> {
-        if wo.z <= 0.0 {
-            return None;
-        }
-        Some(if self.table.shape.n_phi == 1 {
-            self.sample_among::<2>(wo, u)
-        } else {
-            self.sample_among::<4>(wo, u)
-        })
+        (wo.z > 0.0).then(|| self.arch.dispatch(Sample(self, wo, u)))
     }
 
-    #[inline]
     fn pdf(&self, wi: DVec3, wo: DVec3) -> f64 {
         if wi.z <= 0.0 || wo.z <= 0.0 {
             return 0.0;
         }
-        if self.table.shape.n_phi == 1 {
-            self.pdf_among::<2>(wi, wo)
-        } else {
-            self.pdf_among::<4>(wi, wo)
-        }
+        self.arch.dispatch(Density(self, wi, wo))
     }
 
     fn bytes(&self) -> usize {

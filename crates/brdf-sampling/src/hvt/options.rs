@@ -9,7 +9,7 @@ use crate::target::Turning;
 pub enum Preset {
     /// 6 x 12 x 8 nodes, 1 KB.
     Tiny,
-    /// 12 x 40 x 16 nodes, 9.7 KB.
+    /// 12 x 40 x 16 nodes, 9.9 KB.
     #[default]
     Default,
     /// 24 x 72 x 24 nodes, 49 KB.

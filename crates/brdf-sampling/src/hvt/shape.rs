@@ -63,13 +63,13 @@ impl Shape {
         sum
     }
 
-    /// The slices around the viewer `wo`, whose chart ends at the given cosine of theta_h. `S` is 2 or 4: without the
+    /// The slices around the viewer `wo` of the given sine. `S` is 2 or 4: without the
     /// azimuth, or with it.
     #[inline(always)]
-    pub(crate) fn blend<const S: usize>(self, min_cos_h: f64, wo: DVec3) -> Blend<S> {
+    pub(crate) fn blend<const S: usize>(self, sin_o: f64, wo: DVec3) -> Blend<S> {
         // whole numbers of 32 bits: others take a branch on the way to f32
         let last = self.n_theta as u32 - 1;
-        let x = slices::tau(min_cos_h) * last as f32;
+        let x = slices::tau(sin_o as f32, wo.z as f32) * last as f32;
         let k = (x as u32).min(last - 1);
         let t = x - k as f32;
         let k = k as usize;

@@ -16,11 +16,21 @@ pub(crate) struct Table {
     nodes: Vec<u8>,
     pub(crate) scale: Vec<f32>,
     pub(crate) lobe: Vec<f32>,
-    /// Mass of the slice below row i, f32, `n_a` entries a slice.
-    below: Vec<f32>,
+    /// Of every row the integral over b times the width of a cell in a: trapezoids between two of them are masses of
+    /// cells. `n_a` entries a slice; then zeros so that [`SPAN`] + 1 may be read from anywhere.
+    rows: Vec<f32>,
+    /// Mass of the slice below row [`SPAN`], 2 [`SPAN`], ...; infinite entries make the number of a slice a multiple of
+    /// [`BLOCK`].
+    starts: Vec<f32>,
     /// 1 / (n_a - 1).
     step_a: f64,
 }
+
+/// Cells along a between two entries of `starts`.
+pub(crate) const SPAN: usize = 8;
+
+/// Cells that are summed together before they are searched one by one, and entries of `starts` compared together.
+const BLOCK: usize = 4;
 
 /// Bytes after the last node, so that words of four may be read anywhere.
 const PADDING: usize = 3;
@@ -54,7 +64,8 @@ impl Table {
             nodes: Vec::with_capacity(shape.nodes()),
             scale: Vec::with_capacity(shape.slices()),
             lobe: x.lobe.iter().map(|l| *l as f32).collect(),
-            below: Vec::with_capacity(shape.slices() * shape.n_a),
+            rows: Vec::with_capacity(shape.slices() * shape.n_a + SPAN),
+            starts: Vec::with_capacity(shape.slices() * starts(shape.n_a)),
             step_a: 1.0 / (shape.n_a - 1) as f64,
         };
         for (k, values) in x.nodes.chunks_exact(n).enumerate() {
@@ -64,19 +75,24 @@ impl Table {
             let scale = (1.0 - f64::from(table.lobe[k])) / shape.mass(&decoded);
             table.nodes.extend(bytes);
             table.scale.push(scale as f32);
+            let row = |i: usize| -> f64 {
+                let nodes = &decoded[i * shape.n_b..][..shape.n_b];
+                let ends = 0.5 * (nodes[0] + nodes[shape.n_b - 1]);
+                scale * (nodes.iter().sum::<f64>() - ends) / shape.cells() as f64
+            };
+            table.rows.extend((0..shape.n_a).map(|i| row(i) as f32));
             let mut sum = 0.0;
-            for i in 0..shape.n_a {
-                table.below.push(sum as f32);
-                let row = |i: usize| -> f64 {
-                    let at = |j: usize| decoded[i * shape.n_b + j];
-                    let ends = 0.5 * (at(0) + at(shape.n_b - 1));
-                    (0..shape.n_b).map(at).sum::<f64>() - ends
-                };
-                if i + 1 < shape.n_a {
-                    sum += 0.5 * scale * (row(i) + row(i + 1)) / shape.cells() as f64;
+            for i in 1..shape.n_a - 1 {
+                sum += 0.5 * (row(i - 1) + row(i));
+                if i % SPAN == 0 {
+                    table.starts.push(sum as f32);
                 }
             }
+            table
+                .starts
+                .resize((k + 1) * starts(shape.n_a), f32::INFINITY);
         }
+        table.rows.resize(table.rows.len() + SPAN, 0.0);
         table.nodes.resize(shape.nodes() + PADDING, 0);
         table
     }
@@ -87,15 +103,22 @@ impl Table {
         &self.nodes
     }
 
-    /// Mass of each slice below its rows, `n_a` entries a slice.
+    /// Masses of rows: `n_a` entries a slice.
     #[inline(always)]
-    pub(crate) fn below(&self) -> &[f32] {
-        &self.below
+    pub(crate) fn rows(&self) -> &[f32] {
+        &self.rows
+    }
+
+    /// Masses below every [`SPAN`]th row, and how many entries a slice has.
+    #[inline(always)]
+    pub(crate) fn starts(&self) -> (&[f32], usize) {
+        (&self.starts, starts(self.shape.n_a))
     }
 
     pub(crate) fn bytes(&self) -> usize {
         self.shape.nodes()
-            + size_of::<f32>() * (self.scale.len() + self.lobe.len() + self.below.len())
+            + size_of::<f32>()
+                * (self.scale.len() + self.lobe.len() + self.rows.len() + self.starts.len())
     }
 
     /// The slices and their factors.
@@ -141,7 +164,7 @@ impl Table {
 
     /// The point whose marginal mass is `u` of a and whose conditional mass fraction is `v` of b; `u` in [0, 1 -
     /// lobe).
-    #[inline]
+    #[inline(always)]
     pub(crate) fn invert<const S: usize>(&self, p: &Place<S>, u: f32, v: f32) -> Hit {
         // loops of fixed length are worth a copy of the code for every length
         match self.shape.n_b {
@@ -153,18 +176,18 @@ impl Table {
     }
 
     /// [`Self::invert`] for rows of `B` nodes.
-    #[inline]
+    #[inline(always)]
     fn invert_rows<const S: usize, const B: usize>(&self, p: &Place<S>, u: f32, v: f32) -> Hit {
-        let (i, fraction) = self.row_of(p, u);
-        let (low, high) = (self.row::<S, B>(p, i), self.row::<S, B>(p, i + 1));
-        // the trapezoid rule: half weights at both ends
-        let mass = |r: &Row<B>| eighths(r) - 0.5 * (r[0] + r[B - 1]);
-        let x = linear(mass(&low), mass(&high), fraction);
-        let mut row = [0.0; B];
-        for j in 0..B {
-            row[j] = lerp(low[j], high[j], x);
+        let (i, x, mass) = self.row_of(p, u);
+        let row = self.row::<S, B>(p, i, x);
+        let mut cells = [0.0; B];
+        for j in 0..B - 1 {
+            cells[j] = row[j] + row[j + 1];
         }
-        let (j, y) = column(&row, v);
+        // masses of rows are known before their nodes are read
+        let target = 2.0 * v * (mass * self.shape.cells() as u32 as f32);
+        let (j, rest) = search(&cells, target, B - 2);
+        let y = linear_at(row[j], row[j + 1], rest);
         Hit {
             a: (f64::from(i as u32) + f64::from(x)) * self.step_a,
             b: (f64::from(j as u32) + f64::from(y)) * (1.0 / (B - 1) as f64),
@@ -172,54 +195,64 @@ impl Table {
         }
     }
 
-    /// The interval of rows in which the blended marginal reaches `u`, and the fraction of its mass. Rows whose mass is
-    /// not above `u` are counted: no branch, no chain of loads.
-    #[inline]
-    fn row_of<const S: usize>(&self, p: &Place<S>, u: f32) -> (usize, f32) {
-        let na = self.shape.n_a;
-        let list = |s: usize| &self.below[p.blend.slice[s] * na..][..na];
-        let w = p.blend.weight;
-        let count = if S == 2 {
-            let pairs = list(0)[1..na - 1].iter().zip(&list(1)[1..na - 1]);
-            pairs
-                .map(|(l, h)| u32::from(w[0] * l + w[1] * h <= u))
-                .sum::<u32>()
-        } else {
-            let first = list(0)[1..na - 1].iter().zip(&list(1)[1..na - 1]);
-            let second = list(2)[1..na - 1].iter().zip(&list(3)[1..na - 1]);
-            first
-                .zip(second)
-                .map(|((a, b), (c, d))| {
-                    u32::from((w[0] * a + w[1] * b) + (w[2] * c + w[3] * d) <= u)
-                })
-                .sum::<u32>()
-        };
-        let i = count as usize;
-        let below = |i: usize| {
-            let mut sum = 0.0;
-            for (s, w) in w.iter().enumerate() {
-                sum += w * list(s)[i];
+    /// The interval of rows in which the blended marginal reaches `u`, the place in it, and the mass of a row there.
+    /// First by `starts`, then among the rows from there; what is not above `u` is counted, so nothing branches.
+    #[inline(always)]
+    fn row_of<const S: usize>(&self, p: &Place<S>, u: f32) -> (usize, f32, f32) {
+        let (w, n) = (p.blend.weight, starts(self.shape.n_a));
+        let (mut passed, mut below) = ([0_u32; BLOCK], [0.0_f32; BLOCK]);
+        for block in 0..n / BLOCK {
+            let mut sum = [0.0; BLOCK];
+            for s in 0..S {
+                let list = &self.starts[p.blend.slice[s] * n + BLOCK * block..][..BLOCK];
+                for k in 0..BLOCK {
+                    sum[k] += w[s] * list[k];
+                }
             }
-            sum
-        };
-        let (l, h) = (below(i), below(i + 1));
-        (i, ((u - l) / (h - l)).clamp(0.0, 1.0))
+            for k in 0..BLOCK {
+                let is = sum[k] <= u;
+                passed[k] += u32::from(is);
+                below[k] = if is { sum[k] } else { below[k] };
+            }
+        }
+        let first = SPAN * ((passed[0] + passed[1]) + (passed[2] + passed[3])) as usize;
+        // they grow with their number
+        let below = below[0].max(below[1]).max(below[2].max(below[3]));
+        let mut rows = [0.0_f32; SPAN + 1];
+        for s in 0..S {
+            let at = p.blend.slice[s] * self.shape.n_a + first;
+            let list = self.rows[at..].first_chunk().unwrap_or(&[0.0; SPAN + 1]);
+            for k in 0..=SPAN {
+                rows[k] += w[s] * list[k];
+            }
+        }
+        let cells: [f32; SPAN] = std::array::from_fn(|k| rows[k] + rows[k + 1]);
+        let last = (self.shape.n_a - 2 - first).min(SPAN - 1);
+        let (k, rest) = search(&cells, 2.0 * (u - below), last);
+        let (l, h) = (rows[k], rows[k + 1]);
+        let x = linear_at(l, h, rest);
+        (first + k, x, lerp(l, h, x))
     }
 
-    #[inline]
-    fn row<const S: usize, const B: usize>(&self, p: &Place<S>, i: usize) -> Row<B> {
-        let (nb, n) = (self.shape.n_b, self.shape.slice());
+    /// The blended row at `x` between rows `i` and `i` + 1.
+    #[inline(always)]
+    fn row<const S: usize, const B: usize>(&self, p: &Place<S>, i: usize, x: f32) -> Row<B> {
+        let n = self.shape.slice();
         let mut row = [0.0; B];
         for (slice, factor) in p.blend.slice.iter().zip(p.factor) {
-            let nodes: &[u8; B] = self.nodes[slice * n + i * nb..]
-                .first_chunk()
-                .unwrap_or(&[0; B]);
+            let at = &self.nodes[slice * n + i * B..][..2 * B];
+            let (low, high) = (factor * (1.0 - x), factor * x);
             for j in 0..B {
-                row[j] += factor * decode(nodes[j]);
+                row[j] += low * decode(at[j]) + high * decode(at[B + j]);
             }
         }
         row
     }
+}
+
+/// Entries of `starts` a slice of `n_a` rows has.
+fn starts(n_a: usize) -> usize {
+    ((n_a - 2) / SPAN).next_multiple_of(BLOCK)
 }
 
 /// From `l` at 0 to `r` at 1, good to a few roundings of the result: the form with one product cancels between
@@ -240,59 +273,30 @@ fn split(x: f64, n: usize) -> (usize, f32) {
     (i as usize, (x - (shifted - LARGE)) as f32)
 }
 
-/// The point of [0, 1] at which a density linear from `r0` to `r1` holds the fraction `y` of its mass. The
-/// quadratic is solved in the form without cancellation.
+/// The point of [0, 1] at which a density linear from `r0` to `r1` has the mass `y` / 2 below it. The quadratic is solved in
+/// the form without cancellation.
 #[inline(always)]
-pub(crate) fn linear(r0: f32, r1: f32, y: f32) -> f32 {
-    linear_at(r0, r1, y * (r0 + r1))
-}
-
-/// [`linear`] for twice the mass itself.
-#[inline(always)]
-fn linear_at(r0: f32, r1: f32, y: f32) -> f32 {
+pub(crate) fn linear_at(r0: f32, r1: f32, y: f32) -> f32 {
     (y / (r0 + (r0 * r0 + (r1 - r0) * y).max(0.0).sqrt())).clamp(0.0, 1.0)
 }
 
-/// The sum of a row, by eight independent sums.
-#[inline]
-fn eighths<const B: usize>(row: &Row<B>) -> f32 {
-    let mut s = [0.0; 8];
-    for eight in row.chunks_exact(8) {
-        for k in 0..8 {
-            s[k] += eight[k];
-        }
-    }
-    ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]))
-}
-
-/// Cells that are summed together before they are searched one by one.
-const BLOCK: usize = 4;
-
-/// The interval in which the trapezoid sums of `row` reach the fraction `v`, and the place in it. Searched by blocks,
+/// The cell in which the sums of `cells` reach `target`, at most cell `last`, and what is left of the target there. By blocks,
 /// then in the block. Sums are kept and the one below the target is read by its number: chosen on the way, it would
 /// branch on the outcome, which nothing foretells.
-#[inline]
-fn column<const B: usize>(row: &Row<B>, v: f32) -> (usize, f32) {
-    let mut mass = [0.0; B];
-    for j in 0..B - 1 {
-        mass[j] = 0.5 * (row[j] + row[j + 1]);
-    }
-    let mut blocks = [0.0; MAX_B / BLOCK];
-    let mut total = 0.0;
-    for (below, m) in blocks.iter_mut().zip(mass.chunks_exact(BLOCK)) {
+#[inline(always)]
+fn search<const C: usize>(cells: &[f32; C], target: f32, last: usize) -> (usize, f32) {
+    let (mut sums, mut total) = ([0.0; MAX_B / BLOCK], 0.0);
+    for (below, m) in sums.iter_mut().zip(cells.chunks_exact(BLOCK)) {
         *below = total;
         total += (m[0] + m[1]) + (m[2] + m[3]);
     }
-    let target = v * total;
     let passed = |sums: &[f32]| sums.iter().map(|s| u32::from(*s <= target)).sum::<u32>() as usize;
-    let block = passed(&blocks[1..B / BLOCK]);
-    let m: &[f32; BLOCK] = mass[BLOCK * block..].first_chunk().unwrap_or(&[0.0; BLOCK]);
-    let first = blocks[block] + m[0];
-    let pair = blocks[block] + (m[0] + m[1]);
-    let sums = [blocks[block], first, pair, pair + m[2]];
-    // the last block has one cell less
-    let cells = BLOCK - usize::from(block + 1 == B / BLOCK);
-    let k = passed(&sums[1..]).min(cells - 1);
-    let j = BLOCK * block + k;
-    (j, linear_at(row[j], row[j + 1], 2.0 * (target - sums[k])))
+    let block = passed(&sums[1..C / BLOCK]).min(last / BLOCK);
+    let m: &[f32; BLOCK] = cells[BLOCK * block..]
+        .first_chunk()
+        .unwrap_or(&[0.0; BLOCK]);
+    let (below, pair) = (sums[block], sums[block] + (m[0] + m[1]));
+    let sums = [below, below + m[0], pair, pair + m[2]];
+    let k = passed(&sums[1..]).min(last - BLOCK * block);
+    (BLOCK * block + k, target - sums[k])
 }

@@ -84,8 +84,9 @@ fn run(cases: &[Case], angles: &[f64], samples: usize, wanted: impl Fn(usize, us
             }
             // slices of azimuth are few for a lobe six times as long as wide, which has no such bound
             let bounded = entry.name == "Hvt default" && case.symmetry.isotropic;
-            // the default table on the lobe of 0.005 reaches 11.1, rarely; the next 4.9
-            if bounded && w.largest > 12.0 {
+            // ridges finer than the nodes of the default table leave a relative variance of 1, and weights as wild
+            let most = if case.name == "spiky" { 20.0 } else { 10.0 };
+            if bounded && w.largest > most {
                 failed.push(format!("{name} at {theta}: weight {} means", w.largest));
             }
         }

@@ -70,9 +70,7 @@ fn slow_every_preset_integrates_to_one() {
 /// Jumps at the cells of `Inversion` and the cuts of `Rejection` limit the quadrature, not the sampler.
 fn tolerance(name: &str) -> f64 {
     match name.split(' ').next() {
-        Some("Uniform" | "Cosine") => 1e-4,
-        // its kinks, on a quadrature that does not know their scale
-        Some("Hvt") => 3e-4,
+        Some("Uniform" | "Cosine" | "Hvt") => 1e-4,
         _ => 1e-2,
     }
 }
@@ -87,7 +85,13 @@ fn slow_every_sampler_integrates_to_one() {
             for theta in [0.0, 31.0, 72.0] {
                 let wo = viewer(theta);
                 let pdf = |wi: DVec3| sampler.pdf(wi, wo);
-                let integral = hemisphere(pdf, wo, 0.003, [160, 64]);
+                // kinks of narrow ridges at nodes the rule does not know: 3e-4 by half as many panels, 8e-6 by five times
+                let panels = if entry.name.starts_with("Hvt") {
+                    [480, 192]
+                } else {
+                    [160, 64]
+                };
+                let integral = hemisphere(pdf, wo, 0.003, panels);
                 assert!(
                     (integral - 1.0).abs() < tolerance(entry.name),
                     "{} on {} at {theta} degrees: {integral}",
