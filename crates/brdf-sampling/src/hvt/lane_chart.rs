@@ -10,6 +10,9 @@ use brdf::{LANES, Lanes3};
 /// r0^2 and its inverse.
 pub(crate) type Scale2 = [f32; 2];
 
+/// Least Jacobian: densities divided by it stay finite.
+const LEAST: f32 = 1e-30;
+
 /// Viewer-dependent quantities.
 pub(crate) struct Views {
     sin_o: F,
@@ -81,7 +84,7 @@ pub(crate) fn forward(v: &Views, scale2: Scale2, points: &mut Points) -> Lanes3 
         wi.z[k] = (2.0 * wo_h * c - v.cos_o[k]).max(TINY);
         let radial = 4.0 * wo_h * (scale2[0] + r2) * v.span[k];
         let jacobian = radial * rim * stretch / (slope * den);
-        points.jacobian[k] = jacobian.max(f32::MIN_POSITIVE);
+        points.jacobian[k] = jacobian.max(LEAST);
     }
     wi
 }
@@ -97,10 +100,12 @@ pub(crate) fn inverse(v: &Views, scale2: Scale2, wi: &Lanes3) -> Points {
         let hx = wi.x[k] * v.cos_phi[k] + wi.y[k] * v.sin_phi[k] + v.sin_o[k];
         let hy = wi.y[k] * v.cos_phi[k] - wi.x[k] * v.sin_phi[k];
         let hz = wi.z[k].max(0.0) + v.cos_o[k];
+        let len = (hx * hx + hy * hy + hz * hz).sqrt();
+        // to unit length: light and viewer along the surface leave little, whose products would underflow
+        let inv = 1.0 / len.max(TINY);
+        let (hx, hy, hz) = (hx * inv, hy * inv, hz * inv);
         let (xy2, z2) = (hx * hx + hy * hy, hz * hz);
-        let len2 = xy2 + z2;
-        let len = len2.sqrt();
-        let r2 = 2.0 * xy2 / (len2 + len * hz);
+        let r2 = 2.0 * xy2 / (1.0 + hz);
         let (l, slope) = pseudo_log(1.0 + r2 * scale2[1]);
         let rho = xy2.sqrt().max(TINY);
         let [q, den] = quarters(hx, hy.abs(), rho);
@@ -111,7 +116,7 @@ pub(crate) fn inverse(v: &Views, scale2: Scale2, wi: &Lanes3) -> Points {
         p.b[k] = 0.5 + (0.5 * here / there).copysign(hy);
         let radial = 2.0 * len * (scale2[0] + r2) * v.span[k];
         let jacobian = radial * there * den / (slope * (quarters_slope(hx, rho) * rim_den));
-        p.jacobian[k] = jacobian.max(f32::MIN_POSITIVE);
+        p.jacobian[k] = jacobian.max(LEAST);
     }
     p
 }

@@ -77,7 +77,7 @@ impl Hvt {
             Some(r0) => r0.clamp(1e-4, 1.0),
             None => best_scale(&target, shape),
         };
-        let problem = Problem::new(&target, shape, r0, 3);
+        let problem = Problem::new(&target, shape, r0, 2);
         let (x, value) = if problem.is_empty() {
             let cosine = Unknowns {
                 nodes: vec![1e-3; shape.nodes()],

@@ -17,7 +17,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 /// Points of a cell along a and b.
-const SUB: [usize; 2] = [2, 2];
+const SUB: [usize; 2] = [3, 2];
 pub(crate) const POINTS: usize = SUB[0] * SUB[1];
 /// Weight of viewers beside their share of theta_o: grazing ones have hardly any.
 const GRAZING: f64 = 0.4;
