@@ -6,9 +6,9 @@ use brdf::Symmetry;
 use glam::{DVec2, DVec3};
 
 /// Elevations, even in theta_o, and azimuths where they matter.
-const VIEWERS: [usize; 2] = [46, 16];
+const VIEWERS: [usize; 2] = [91, 16];
 /// Quadrature points along the chart's coordinates.
-const POINTS: [usize; 2] = [256, 64];
+const POINTS: [usize; 2] = [192, 32];
 /// Radial scale of the quadrature chart.
 const R0: f64 = 2e-3;
 
