@@ -4,15 +4,15 @@ use super::lambert_w;
 use std::f64::consts::TAU;
 
 /// From this largest term on the sum is taken as an integral, by its saddle point. There the expansion errs by 2e-5, and
-/// the lower end, where the summand is e^-20 of its peak, by less.
-const FROM_SADDLE: f64 = 20.0;
+/// the lower end, where the summand is e^-22 of its peak, by less.
+const FROM_SADDLE: f64 = 22.0;
 /// Least deviation of a summand that is nearly a Gaussian: its sum and its integral differ by 2 exp(-2 pi^2 0.9^2) = 2e-7
 /// [Trefethen2014].
 const WIDE: f64 = 0.9;
 /// Share of the largest term after which none are summed up.
 const NEGLIGIBLE: f64 = 1e-7;
-/// Most terms of the direct sum: [`FROM_SADDLE`], 5 deviations of at most 4.5, a few for small sums.
-const TERMS: usize = 48;
+/// Most terms of the direct sum: [`FROM_SADDLE`], 5 deviations of at most 4.7, a few for small sums.
+const TERMS: usize = 56;
 /// Exponentials computed together.
 const WIDTH: usize = 8;
 
@@ -234,6 +234,14 @@ const LN_FACTORIAL_M: [f64; TERMS] = [
     136.7812164321054,
     140.65287023903642,
     144.54512465914215,
+    148.4575642444555,
+    152.3897899572012,
+    156.34141821722164,
+    160.31208002166022,
+    164.30142013018303,
+    168.3090963097594,
+    172.33477863366014,
+    176.37814882989795,
 ];
 
 #[cfg(test)]

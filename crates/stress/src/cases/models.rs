@@ -81,7 +81,7 @@ fn bound(info: &ModelInfo) -> (f64, &'static str) {
     if info.name == "he" {
         return (
             1e-4,
-            "the series as an integral from a saddle point of 16 on, cut at e^-16 of its peak: documented as 2e-5",
+            "the series as an integral from a saddle point of 22 on, cut at e^-22 of its peak: documented as 2e-5",
         );
     }
     if info.laws.non_negative {

@@ -85,12 +85,12 @@ pub(super) fn cases() -> Vec<Case> {
             },
         ),
         Case::new(
-            "switch/He: sum or integral, saddle point at 16",
+            "switch/He: sum or integral, saddle point at 22",
             1e-4,
             "either side is good to 2e-5; the demand is 1e-4",
             |_, t| {
-                // g = (4 pi sigma/lambda)^2 = 16 toward the normal
-                let sigma = 4.0 * 0.55 / (4.0 * PI);
+                // g = (4 pi sigma/lambda)^2 = 22 toward the normal
+                let sigma = 22.0_f64.sqrt() * 0.55 / (4.0 * PI);
                 each_step(|step| {
                     for tilt in [0.0, 0.02, 0.3] {
                         let text = format!("he:tau=3,mirror=0,sigma={}", sigma * (1.0 + step));
