@@ -84,7 +84,7 @@ pub(crate) fn run(args: &[String]) -> Result<()> {
         bail!("expected the name of a peer: mitsuba\n{HELP}");
     }
     let asked = parse(&args[1..])?;
-    crate::process::run("cargo", &["build", "--release", "-p", "gonio"])?;
+    crate::gonio::build()?;
     println!(
         "| material | light | ours: s to 1 % | Mpaths/s | Mitsuba: s to 1 % | Mpaths/s | MSE x spp, 1/4 of the spp over all | \
          ratio (95 %) | means apart |\n|---|---|---:|---:|---:|---:|---:|---:|---:|"
@@ -257,7 +257,7 @@ fn gonio(
     } else {
         "benchmark"
     };
-    let mut command = Command::new(root.join("target/release/gonio"));
+    let mut command = crate::gonio::command();
     command
         .arg("converge")
         .arg(root.join("scenes").join(scene).join("scene.ron"))
@@ -271,13 +271,7 @@ fn gonio(
             "--threads",
             "2",
         ])
-        .args([
-            "--target",
-            &TARGET.to_string(),
-            "--seconds",
-            &asked.seconds,
-            "--json",
-        ])
+        .args(["--target", &TARGET.to_string(), "--seconds", &asked.seconds])
         .args([
             "--size",
             &format!("{}x{}", asked.size.0, asked.size.1),
@@ -291,11 +285,7 @@ fn gonio(
             command.args(["--interpolation", "nearest"]);
         }
     }
-    let output = command.output().context("cannot start gonio")?;
-    if !output.status.success() {
-        bail!("gonio failed: {}", String::from_utf8_lossy(&output.stderr));
-    }
-    serde_json::from_slice(&output.stdout).context("gonio printed no JSON")
+    crate::gonio::run(&mut command)
 }
 
 /// How far the long-run means are apart: relative difference of the pictures' means with its standard error, and the

@@ -20,14 +20,16 @@ pub(crate) fn command() -> Command {
 
 /// What `gonio --json` with these arguments reports.
 pub(crate) fn report(arguments: &[&str]) -> Result<Value> {
-    let output = command()
-        .args(arguments)
-        .arg("--json")
-        .output()
-        .context("cannot start gonio")?;
+    run(command().args(arguments))
+}
+
+/// The same of a command that has its arguments.
+pub(crate) fn run(command: &mut Command) -> Result<Value> {
+    let output = command.arg("--json").output();
+    let output = output.context("cannot start gonio")?;
     if !output.status.success() {
         let said = String::from_utf8_lossy(&output.stderr);
-        bail!("gonio {}: {}", arguments.join(" "), said.trim());
+        bail!("{command:?}: {}", said.trim());
     }
     serde_json::from_slice(&output.stdout).context("gonio printed no JSON")
 }

@@ -330,7 +330,7 @@ mod tests {
                 let c = f64::to_radians(degrees).cos();
                 let exact = basis.project(&s.reflectance(c));
                 for (found, exact) in fresnel.eval(c).iter().zip(&exact) {
-                    // gold's red and green see an edge; others err by a fifth of this
+                    // gold's red and green see an edge, and err most
                     assert_close(*found, *exact, 1e-3, &format!("{} at {degrees}", s.name));
                 }
             }

@@ -1,6 +1,8 @@
 //! Models that know more than three wavelengths: in any channels, and at wavelengths that differ from path to path.
 
-use brdf::{Brdf, HERO, LANES, Lanes3, ROTATIONS, RotatedTable, Rotation, Symmetry, TaggedBrdf};
+use brdf::{
+    Brdf, HERO, LANES, Lanes3, ROTATIONS, RotatedTable, Rotation, Symmetry, TaggedBrdf, rotated,
+};
 use glam::DVec3;
 use spectrum::Spectrum;
 use std::sync::Arc;
@@ -143,7 +145,6 @@ impl SpectralModel {
                 .iter()
                 .map(|nm| substance.at(*nm))
                 .collect();
-            let table = |values: Vec<f64>| rotated(&values);
             return Arc::new(HeroTinted {
                 lobe: Arc::clone(lobe),
                 fresnel: std::array::from_fn(|r| {
@@ -155,8 +156,8 @@ impl SpectralModel {
                         Unpolarised32::new(n, k)
                     })
                 }),
-                specular: table(seeing.weight(&self.values, "ks")),
-                diffuse: table(seeing.weight(&self.values, "kd")),
+                specular: rotated(&seeing.weight(&self.values, "ks")),
+                diffuse: rotated(&seeing.weight(&self.values, "kd")),
             });
         }
         Arc::new(HeroEach(
@@ -177,16 +178,6 @@ impl SpectralModel {
                 .collect(),
         ))
     }
-}
-
-fn rotated(values: &[f64]) -> RotatedTable {
-    std::array::from_fn(|r| {
-        std::array::from_fn(|c| {
-            values
-                .get(c * ROTATIONS + r)
-                .map_or(f32::NAN, |v| *v as f32)
-        })
-    })
 }
 
 /// A grey lobe times the reflectance of its facets, over Lambert: f = kd/pi + ks F L.

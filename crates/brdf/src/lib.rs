@@ -27,4 +27,4 @@ pub use lanes::{LANES, Lanes3};
 pub use material::{EvalPacket, Material, Paired, SamplePacket};
 pub use measured::{Measured, Projected, Status};
 pub use spread::{Rotated, Spread};
-pub use tag::{HERO, ROTATIONS, RotatedTable, Rotation, Tag, TaggedBrdf};
+pub use tag::{HERO, ROTATIONS, RotatedTable, Rotation, Tag, TaggedBrdf, rotated};

@@ -59,6 +59,15 @@ pub struct Rotation(u8);
 /// A value for each wavelength of each rotation.
 pub type RotatedTable = [[f32; HERO]; ROTATIONS];
 
+/// Values of the [`HERO`] times [`ROTATIONS`] narrow bins, sorted by rotation: rotation r carries the bins r, r + ROTATIONS, ..;
+/// 0 where there are fewer.
+#[must_use]
+pub fn rotated(values: &[f64]) -> RotatedTable {
+    std::array::from_fn(|r| {
+        std::array::from_fn(|c| values.get(c * ROTATIONS + r).map_or(0.0, |v| *v as f32))
+    })
+}
+
 impl Rotation {
     /// Rotation number `index` modulo [`ROTATIONS`].
     #[inline(always)]

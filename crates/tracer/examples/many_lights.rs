@@ -10,8 +10,12 @@
     reason = "an example reports to whoever runs it"
 )]
 
-use brdf::{Brdf, DirectionSample, DirectionSampler, Material, Paired};
-use glam::{DVec2, DVec3};
+#[path = "shared/cosine.rs"]
+mod cosine;
+
+use brdf::{Brdf, Material, Paired};
+use cosine::Cosine;
+use glam::DVec3;
 use sampling::Rng;
 use spectrum::Samples;
 use std::f64::consts::PI;
@@ -29,20 +33,6 @@ impl Brdf<1> for Lambert {
     fn eval(&self, wi: DVec3, wo: DVec3) -> [f64; 1] {
         let up = wi.z > 0.0 && wo.z > 0.0;
         [if up { 0.6 / PI } else { 0.0 }]
-    }
-}
-
-struct Cosine;
-
-impl DirectionSampler for Cosine {
-    fn sample(&self, wo: DVec3, u: DVec2) -> Option<DirectionSample> {
-        let (sin, cos) = (2.0 * PI * u.y).sin_cos();
-        let (r, z) = (u.x.sqrt(), (1.0 - u.x).sqrt());
-        let wi = DVec3::new(r * cos, r * sin, z);
-        (wo.z > 0.0 && z > 0.0).then_some(DirectionSample { wi, pdf: z / PI })
-    }
-    fn pdf(&self, wi: DVec3, wo: DVec3) -> f64 {
-        if wo.z > 0.0 { wi.z.max(0.0) / PI } else { 0.0 }
     }
 }
 

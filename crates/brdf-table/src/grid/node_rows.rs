@@ -48,7 +48,7 @@ struct Line([i16; LINE]);
 /// Up to `32 L - 1` channels a node in `L` cache lines: whole numbers of 16 bits that share an exponent, kept in the last
 /// entry.
 ///
-/// A channel is off by at most 2^-15 of the largest of its node (2^-16 unless that rounds up to a power of two). A table of
+/// A channel is off by at most 2^-15 of the largest of its node: half a unit, of which the largest has at least 2^14. A table of
 /// 31 bands is half as large as in single precision, and a look-up waits for eight lines of memory instead of twenty.
 #[derive(Clone, Debug)]
 pub(crate) struct PackedRows<const L: usize> {

@@ -3,7 +3,7 @@
 mod report;
 
 use super::Context;
-use crate::args::{ColourArgs, parse_size};
+use crate::args::{Reading, parse_size};
 use crate::output::say;
 use crate::process;
 use anyhow::Result;
@@ -11,7 +11,7 @@ use clap::Args;
 use report::Report;
 use scene_io::converge::{self, Clock, Method, Options, Outcome};
 use scene_io::image::write_exr;
-use scene_io::scene::{InterpolationName, MaterialSpec};
+use scene_io::scene::MaterialSpec;
 use scene_io::{DEFAULT_SCENE, Error, ErrorKind, Overrides, SceneFile};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -34,11 +34,8 @@ pub(crate) struct Converge {
     /// Replaces the scene's main material: a file, or a model such as ggx:alpha=0.1.
     #[arg(long, value_name = "FILE|MODEL")]
     pub(crate) material: Option<PathBuf>,
-    /// Interpolation of the main material's table.
-    #[arg(long, value_name = "NAME")]
-    pub(crate) interpolation: Option<InterpolationName>,
     #[command(flatten)]
-    pub(crate) colour: ColourArgs,
+    pub(crate) reading: Reading,
     /// What is compared, comma separated.
     #[arg(
         long,
@@ -130,8 +127,8 @@ fn options(args: &Converge) -> Options {
             material: (args.material.as_ref())
                 .map(|m| MaterialSpec::from_argument(&m.to_string_lossy())),
             size: args.size,
-            interpolation: args.interpolation,
-            colour: args.colour.choice(),
+            interpolation: args.reading.interpolation,
+            colour: args.reading.colour.choice(),
             ..Overrides::default()
         },
         seconds: args.seconds,

@@ -80,8 +80,8 @@ fn overrides(args: &Render) -> Overrides {
             .material
             .as_ref()
             .map(|m| MaterialSpec::from_argument(&m.to_string_lossy())),
-        interpolation: args.interpolation,
-        colour: args.colour.choice(),
+        interpolation: args.reading.interpolation,
+        colour: args.reading.colour.choice(),
         gamut: args.gamut,
         range_nm: args.range.map(|r| r.0),
         sampler: args.sampler,

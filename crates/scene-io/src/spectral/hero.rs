@@ -2,7 +2,7 @@
 
 use super::channels::Channels;
 use super::light::LightSum;
-use brdf::{HERO, ROTATIONS, RotatedTable};
+use brdf::{HERO, ROTATIONS, rotated};
 use spectrum::{Basis, Bins, Observer, Spectrum, WavelengthDensity};
 use std::sync::Arc;
 use tracer::{Hero, HeroEmission};
@@ -47,13 +47,6 @@ impl HeroChannels {
     pub(super) fn emission(&self, power: &Spectrum) -> HeroEmission {
         HeroEmission::Table(Arc::new(rotated(&self.channels.emission(power))))
     }
-}
-
-/// Values of the bins by rotation: rotation r carries the bins r, r + ROTATIONS, ..
-pub(super) fn rotated(values: &[f64]) -> RotatedTable {
-    std::array::from_fn(|r| {
-        std::array::from_fn(|c| values.get(c * ROTATIONS + r).map_or(0.0, |v| *v as f32))
-    })
 }
 
 #[cfg(test)]

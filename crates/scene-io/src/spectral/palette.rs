@@ -1,7 +1,7 @@
 //! How the parts of a scene file become what the renderer of a mode holds.
 
 use super::channels::Channels;
-use super::hero::{self, HeroChannels};
+use super::hero::HeroChannels;
 use super::light;
 use super::surface::SpectralSurface;
 use crate::build::Places;
@@ -192,7 +192,7 @@ pub(super) struct HeroPalette {
 
 impl HeroPalette {
     pub(super) fn new(hero: HeroChannels) -> Self {
-        let pixel = unit_lights().map(|power| hero::rotated(&hero.channels.emission(&power)));
+        let pixel = unit_lights().map(|power| brdf::rotated(&hero.channels.emission(&power)));
         let pixel = Arc::new(pixel);
         Self { hero, pixel }
     }

@@ -1,7 +1,11 @@
 //! A floor and a ball under one light, in any channels.
 
-use brdf::{DirectionSample, DirectionSampler, LANES, Lanes3, Material, Paired, Tag, TaggedBrdf};
-use glam::{DVec2, DVec3};
+#[path = "../shared/cosine.rs"]
+mod cosine;
+
+use brdf::{LANES, Lanes3, Material, Paired, Tag, TaggedBrdf};
+use cosine::Cosine;
+use glam::DVec3;
 use std::f64::consts::PI;
 use tracer::{
     Camera, Description, Develop, Film, LightSelection, Object, PointLight, Scene, Settings, Shape,
@@ -18,20 +22,6 @@ impl<const N: usize, T: Tag> TaggedBrdf<N, T> for Lambert {
             if up { (0.6 / PI) as f32 } else { 0.0 }
         };
         [std::array::from_fn(one); N]
-    }
-}
-
-struct Cosine;
-
-impl DirectionSampler for Cosine {
-    fn sample(&self, wo: DVec3, u: DVec2) -> Option<DirectionSample> {
-        let (sin, cos) = (2.0 * PI * u.y).sin_cos();
-        let (r, z) = (u.x.sqrt(), (1.0 - u.x).sqrt());
-        let wi = DVec3::new(r * cos, r * sin, z);
-        (wo.z > 0.0 && z > 0.0).then_some(DirectionSample { wi, pdf: z / PI })
-    }
-    fn pdf(&self, wi: DVec3, wo: DVec3) -> f64 {
-        if wo.z > 0.0 { wi.z.max(0.0) / PI } else { 0.0 }
     }
 }
 

@@ -1,9 +1,9 @@
 //! `gonio render` as typed.
 
 use super::strategy::LightStrategy;
-use crate::args::{ColourArgs, Range, parse_exr, parse_size, with_ending};
+use crate::args::{Range, Reading, parse_exr, parse_size, with_ending};
 use clap::Args;
-use scene_io::scene::{GamutName, InterpolationName, SamplerName, SpectrumName};
+use scene_io::scene::{GamutName, SamplerName, SpectrumName};
 use std::path::PathBuf;
 use tracer::Shard;
 
@@ -46,13 +46,10 @@ pub(crate) struct Render {
     #[arg(long, value_name = "NAME")]
     pub(crate) gamut: Option<GamutName>,
     #[command(flatten)]
-    pub(crate) colour: ColourArgs,
+    pub(crate) reading: Reading,
     /// How directions are chosen on measured materials.
     #[arg(long, value_name = "NAME")]
     pub(crate) sampler: Option<SamplerName>,
-    /// Interpolation of tables: see `gonio info FILE` for what a format offers.
-    #[arg(long, value_name = "NAME")]
-    pub(crate) interpolation: Option<InterpolationName>,
     /// Size in pixels, such as 320x240.
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(crate) size: Option<(u32, u32)>,

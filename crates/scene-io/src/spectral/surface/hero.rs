@@ -1,6 +1,6 @@
 //! A surface at wavelengths that differ from path to path.
 
-use super::super::hero::{HeroChannels, rotated};
+use super::super::hero::HeroChannels;
 use super::sampler::{self, paired};
 use super::{Form, SpectralSurface, bands, first, invalid, srgb};
 use crate::cache::Cache;
@@ -9,6 +9,7 @@ use crate::material::SamplerReport;
 use crate::scene::SamplerName;
 use brdf::{
     HERO, LANES, Lanes3, Material, Measured, Paired, Rotated, RotatedTable, Rotation, TaggedBrdf,
+    rotated,
 };
 use brdf_models::Lambert;
 use brdf_table::{GriddedN, HeroGrid};
