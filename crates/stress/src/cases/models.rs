@@ -191,7 +191,7 @@ fn us(end: f64) -> [f64; 6] {
 
 fn sampler(info: &'static ModelInfo, _: Effort, tally: &mut Tally) {
     let end = 1.0 - f64::EPSILON / 2.0;
-    for model in settings(info) {
+    tally.each(&settings(info), |model, tally| {
         for wo in viewers() {
             for (u, v) in us(end).into_iter().flat_map(|u| us(end).map(|v| (u, v))) {
                 let Some(s) = model.built.sampler.sample(wo, DVec2::new(u, v)) else {
@@ -210,12 +210,12 @@ fn sampler(info: &'static ModelInfo, _: Effort, tally: &mut Tally) {
                 }
             }
         }
-    }
+    });
 }
 
 fn sampler_lanes(info: &'static ModelInfo, _: Effort, tally: &mut Tally) {
     let end = 1.0 - f64::from(f32::EPSILON) / 2.0;
-    for model in settings(info) {
+    tally.each(&settings(info), |model, tally| {
         for wo in viewers() {
             for v in us(end) {
                 let mut packet = SamplePacket::ZERO;
@@ -227,11 +227,11 @@ fn sampler_lanes(info: &'static ModelInfo, _: Effort, tally: &mut Tally) {
                 let mut packets = [packet];
                 model.built.material.sample(&mut packets);
                 for k in 0..LANES {
-                    sampled(&model, &packets[0], k, tally);
+                    sampled(model, &packets[0], k, tally);
                 }
             }
         }
-    }
+    });
 }
 
 /// Lane `k` of what a material sampled.

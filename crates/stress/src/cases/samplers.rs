@@ -96,19 +96,19 @@ pub(super) fn cases() -> Vec<Case> {
                     format!("sampler/{}/ends of u", kind.name),
                     kind.bound,
                     kind.reason,
-                    move |effort, tally| each_target(effort, |n, f| scalars(&*(kind.build)(f), n, tally)),
+                    move |effort, tally| each_target(effort, tally, |n, f, tally| scalars(&*(kind.build)(f), n, tally)),
                 ),
                 Case::new(
                     format!("sampler/{}/f32 lanes", kind.name),
                     2e-2,
                     "f32 directions in a chart that spreads 1e-4 rad over several nodes; u to 1 - 2^-24",
-                    move |effort, tally| each_target(effort, |n, f| lanes(&*(kind.build)(f), n, tally)),
+                    move |effort, tally| each_target(effort, tally, |n, f, tally| lanes(&*(kind.build)(f), n, tally)),
                 ),
                 Case::new(
                     format!("sampler/{}/density anywhere", kind.name),
                     0.0,
                     "finite and not negative in both precisions: opposite, equal, grazing, mirrored directions",
-                    move |effort, tally| each_target(effort, |n, f| anywhere(&*(kind.build)(f), n, effort, tally)),
+                    move |effort, tally| each_target(effort, tally, |n, f, tally| anywhere(&*(kind.build)(f), n, effort, tally)),
                 ),
             ]
         })
@@ -128,11 +128,15 @@ pub(super) fn cases() -> Vec<Case> {
         .collect()
 }
 
-/// Calls `f` with every target.
-fn each_target(effort: Effort, mut f: impl FnMut(&str, &SharedTarget)) {
-    for (name, target) in targets(effort) {
-        f(&name, &target);
-    }
+/// Calls `f` with every target, several at once.
+fn each_target(
+    effort: Effort,
+    tally: &mut Tally,
+    f: impl Fn(&str, &SharedTarget, &mut Tally) + Sync,
+) {
+    tally.each(&targets(effort), |(name, target), tally| {
+        f(name, target, tally);
+    });
 }
 
 fn targets(effort: Effort) -> Vec<(String, SharedTarget)> {
