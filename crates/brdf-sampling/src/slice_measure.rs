@@ -113,21 +113,37 @@ fn keep_highest(best: &mut Vec<(f64, DVec2)>, item: (f64, DVec2)) {
     }
 }
 
-/// Pattern search: steps along both axes, halved when none of them rises.
+/// Pattern search [HookeJeeves1961]: steps along both axes, halved when none of them rises. What rose is tried once more from where it
+/// led, twice as far each time: ridges that lie across both axes would else be climbed in steps of their own width.
 fn climb(ratio: impl Fn(DVec2) -> f64, mut at: DVec2, mut value: f64, mut step: f64) -> f64 {
+    let inside = |p: DVec2| p.clamp(DVec2::ZERO, DVec2::ONE);
     let mut halvings = 0;
     while halvings < HALVINGS {
-        let next = [DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y]
-            .map(|d| (at + step * d).clamp(DVec2::ZERO, DVec2::ONE))
-            .map(|p| (ratio(p), p))
-            .into_iter()
-            .max_by(|a, b| a.0.total_cmp(&b.0));
-        match next {
-            Some((v, p)) if v > value => (value, at) = (v, p),
-            _ => {
-                step *= 0.5;
-                halvings += 1;
+        let start = at;
+        for axis in [DVec2::X, DVec2::Y] {
+            for d in [step, -step] {
+                let p = inside(at + d * axis);
+                let v = ratio(p);
+                if v > value {
+                    (value, at) = (v, p);
+                    break;
+                }
             }
+        }
+        let mut stride = at - start;
+        if stride == DVec2::ZERO {
+            step *= 0.5;
+            halvings += 1;
+            continue;
+        }
+        loop {
+            let p = inside(at + stride);
+            let v = ratio(p);
+            if v <= value || p == at {
+                break;
+            }
+            (value, at) = (v, p);
+            stride *= 2.0;
         }
     }
     value
