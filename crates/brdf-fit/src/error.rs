@@ -18,7 +18,7 @@ pub enum FitError {
     #[error("expected positive reflectance, found none")]
     AllZero,
     /// No such family of models.
-    #[error("unknown model `{name}`; those that can be fitted are {known}")]
+    #[error("no model `{name}` to fit; those that can be fitted are {known}")]
     UnknownModel {
         /// As typed.
         name: String,

@@ -8,7 +8,7 @@
 #![expect(clippy::print_stdout, reason = "a program")]
 #![expect(clippy::disallowed_methods, reason = "reads the files it is told")]
 
-use brdf::{Brdf, DirectionSampler, Measured, Status, Symmetry};
+use brdf::{Computed, DirectionSampler, Measured};
 use brdf_formats::File;
 use brdf_models::parse_model;
 use brdf_sampling::{
@@ -20,36 +20,16 @@ use brdf_table::{
     CellPolicy, Gridded, HalfDiffTable, Interpolation, RglTable, SampleCloud, ThinPlate, resample,
 };
 use glam::DVec3;
-use spectrum::{Basis, RgbSpace};
 use std::error::Error;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 use std::time::Instant;
 
 const SAMPLES: usize = 20_000;
 
-/// The native channels of a model.
-struct Model(Arc<dyn Brdf<3>>);
-
-impl Measured for Model {
-    fn basis(&self) -> &Basis {
-        static BASIS: OnceLock<Basis> = OnceLock::new();
-        BASIS.get_or_init(|| Basis::Rgb(RgbSpace::srgb()))
-    }
-
-    fn eval_native(&self, wi: DVec3, wo: DVec3, out: &mut [f64]) -> Status {
-        out.copy_from_slice(&self.0.eval(wi, wo));
-        Status::Measured
-    }
-
-    fn symmetry(&self) -> Symmetry {
-        self.0.symmetry()
-    }
-}
-
 /// A file, or a model if the text has a colon and no such file is there.
 fn load(path: &str) -> Result<Arc<dyn Measured>, Box<dyn Error>> {
     if path.contains(':') && !std::path::Path::new(path).exists() {
-        return Ok(Arc::new(Model(parse_model(path)?.built.brdf)));
+        return Ok(Arc::new(Computed::new(parse_model(path)?.built.brdf)));
     }
     let linear = |table: HalfDiffTable| Gridded {
         table: Arc::new(table),

@@ -2,7 +2,7 @@
 //!
 //! - [`Brdf`]: what the surface does. [`DirectionSampler`]: how a direction is chosen for it.
 //!   [`Paired`]: one of each, as the [`Material`] a renderer holds.
-//! - [`Measured`]: reflectance in the channels of its file; [`Projected`] turns it into a [`Brdf`].
+//! - [`Measured`]: reflectance in the channels of its file; [`Projected`] turns it into a [`Brdf`], [`Computed`] a model into it.
 //! - [`TaggedBrdf`]: the same where lanes differ in what they carry, as in hero wavelength sampling.
 //! - [`HalfDiff`]: Rusinkiewicz' angles.
 //!
@@ -25,6 +25,6 @@ pub use contract::{Brdf, DirectionSample, DirectionSampler, SampleLanes, Symmetr
 pub use half_diff::{HalfDiff, direction};
 pub use lanes::{LANES, Lanes3};
 pub use material::{EvalPacket, Material, Paired, SamplePacket};
-pub use measured::{Measured, Projected, Status};
+pub use measured::{Computed, Measured, Projected, Status};
 pub use spread::{Rotated, Spread};
 pub use tag::{HERO, ROTATIONS, RotatedTable, Rotation, Tag, TaggedBrdf, rotated};

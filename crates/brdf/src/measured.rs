@@ -2,7 +2,7 @@
 
 use crate::contract::{Brdf, Symmetry};
 use glam::DVec3;
-use spectrum::Basis;
+use spectrum::{Basis, RgbSpace};
 
 /// How an evaluated value came about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -81,6 +81,41 @@ impl<M: Measured, const N: usize> Brdf<N> for Projected<M, N> {
 
     fn table_bytes(&self) -> usize {
         self.measured.table_bytes()
+    }
+}
+
+/// A [`Brdf`] of linear sRGB channels read as if it had been measured: models beside measurements.
+#[derive(Clone, Debug)]
+pub struct Computed<B> {
+    brdf: B,
+    basis: Basis,
+}
+
+impl<B: Brdf<3>> Computed<B> {
+    /// Every value counts as [`Status::Measured`].
+    pub fn new(brdf: B) -> Self {
+        let basis = Basis::Rgb(RgbSpace::srgb());
+        Self { brdf, basis }
+    }
+}
+
+impl<B: Brdf<3>> Measured for Computed<B> {
+    fn basis(&self) -> &Basis {
+        &self.basis
+    }
+    fn eval_native(&self, wi: DVec3, wo: DVec3, out: &mut [f64]) -> Status {
+        out.copy_from_slice(&self.brdf.eval(wi, wo));
+        if wi.z > 0.0 && wo.z > 0.0 {
+            Status::Measured
+        } else {
+            Status::Filled
+        }
+    }
+    fn symmetry(&self) -> Symmetry {
+        self.brdf.symmetry()
+    }
+    fn table_bytes(&self) -> usize {
+        self.brdf.table_bytes()
     }
 }
 

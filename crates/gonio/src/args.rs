@@ -138,9 +138,10 @@ pub(crate) struct Info {
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   gonio eval brass.binary --theta-i 45 --theta-o 45 --phi-o 180
-  gonio eval garnet_red_RGB.astm --batch directions.csv --json      (theta_i,phi_i,theta_o,phi_o a line)")]
+  gonio eval garnet_red_RGB.astm --batch directions.csv --json      (theta_i,phi_i,theta_o,phi_o a line)
+  gonio eval ggx:alpha=0.1 --theta-i 45 --theta-o 45 --phi-o 180")]
 pub(crate) struct Eval {
-    /// A measured-reflectance file in any known format.
+    /// A measured-reflectance file in any known format, or a model such as ggx:alpha=0.1.
     pub(crate) file: PathBuf,
     /// Polar angle toward the light, degrees.
     #[arg(long, value_name = "DEG", required_unless_present = "batch", allow_negative_numbers = true, value_parser = parse_theta)]
@@ -172,14 +173,15 @@ pub(crate) enum PlotKind {
     Albedo,
 }
 
-/// Draw polar plots, slices or albedo of one or several files.
+/// Draw polar plots, slices or albedo of one or several files or models.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   gonio plot brass.binary --theta-i 45,75,85 -o brass.svg
   gonio plot garnet_red_RGB.astm krylon_blue_RGB.astm --theta-i 45 --log -o both.png
-  gonio plot brass.binary --kind albedo -o albedo.svg")]
+  gonio plot brass.binary --kind albedo -o albedo.svg
+  gonio plot brass.binary ggx:alpha=0.05 --log -o brass-and-ggx.svg")]
 pub(crate) struct Plot {
-    /// Measured-reflectance files.
+    /// Measured-reflectance files, or models such as ggx:alpha=0.1.
     #[arg(required = true)]
     pub(crate) files: Vec<PathBuf>,
     /// Output: .svg or .png.

@@ -4,14 +4,46 @@ use crate::args::Reading;
 use crate::output::Usage;
 use crate::verbs::Context;
 use anyhow::Result;
+use brdf::{Computed, Measured};
+use brdf_models::parse_model;
 use scene_io::material::{LoadedMeasured, load_measured};
+use scene_io::scene::MaterialSpec;
 use spectrum::Basis;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Loads a measured file, found in the current folder or a data folder.
 pub(crate) fn measured(context: &Context, file: &Path, reading: Reading) -> Result<LoadedMeasured> {
     let path = context.places.data.find(file, Path::new(""))?;
     Ok(load_measured(&path, &reading.options())?)
+}
+
+/// What a verb looks at: a measured file, or a model by its description.
+pub(crate) struct Subject {
+    /// Short, for legends and titles.
+    pub(crate) label: String,
+    /// The format, or `model`.
+    pub(crate) format: &'static str,
+    pub(crate) measured: Arc<dyn Measured>,
+}
+
+/// Loads a measured file, or builds a model if the text describes one and no such file exists.
+pub(crate) fn subject(context: &Context, text: &Path, reading: Reading) -> Result<Subject> {
+    Ok(match MaterialSpec::from_argument(&text.to_string_lossy()) {
+        MaterialSpec::Model(spec) => Subject {
+            format: "model",
+            measured: Arc::new(Computed::new(parse_model(&spec.model)?.built.brdf)),
+            label: spec.model,
+        },
+        _ => {
+            let loaded = measured(context, text, reading)?;
+            Subject {
+                label: label(text),
+                format: loaded.format.name,
+                measured: loaded.measured,
+            }
+        }
+    })
 }
 
 /// A short name for legends: the file's name without folders and ending.

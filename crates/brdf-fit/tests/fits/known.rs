@@ -252,7 +252,7 @@ fn what_cannot_be_fitted_is_refused_in_one_line() {
     let message = |e: FitError| e.to_string();
     assert!(
         message(family("wart", 1).err().unwrap())
-            .starts_with("unknown model `wart`; those that can be fitted are lambert,"),
+            .starts_with("no model `wart` to fit; those that can be fitted are lambert,"),
         "name"
     );
     assert_eq!(

@@ -57,8 +57,8 @@ struct Reading {
 }
 
 pub(crate) fn run(context: &Context, args: &Eval) -> Result<()> {
-    let loaded = load::measured(context, &args.file, args.reading)?;
-    let probe = Probe::new(loaded.measured.as_ref());
+    let subject = load::subject(context, &args.file, args.reading)?;
+    let probe = Probe::new(subject.measured.as_ref());
     let result = if let Some(batch) = &args.batch {
         let text = scene_io::load::text(batch, scene_io::load::MAX_FILE_BYTES)?;
         let (mut values, mut statuses, mut linear_srgb) = (Vec::new(), Vec::new(), Vec::new());
@@ -81,7 +81,7 @@ pub(crate) fn run(context: &Context, args: &Eval) -> Result<()> {
     };
     let basis = probe.material.basis();
     let report = Report {
-        format: loaded.format.name,
+        format: subject.format,
         channels: Channels::of(basis),
         result,
     };

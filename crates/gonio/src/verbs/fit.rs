@@ -11,7 +11,7 @@ use crate::output::{Usage, say};
 use anyhow::Result;
 use brdf_fit::{Family, Metric, families, family};
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Fit analytic models to a measurement, or to every one in a folder.
 #[derive(Debug, Args)]
@@ -65,26 +65,10 @@ fn parse_cutoff(text: &str) -> Result<f64, String> {
 
 pub(crate) fn run(context: &Context, args: &Fit) -> Result<()> {
     let families = chosen(args)?;
-    let path = context.places.data.find(args.file.as_ref(), "".as_ref());
-    if PathBuf::from(&args.file).is_dir() {
+    if Path::new(&args.file).is_dir() {
         return folder::run(context, args, &families);
     }
-    let source = match path {
-        Ok(path) => one::Source::File(path, args.reading),
-        // a model's name is no path; when it is neither, what was wrong with the model is the better message only
-        // if it was meant as one
-        Err(no_file) => match brdf_models::parse_model(&args.file) {
-            Ok(model) => one::Source::Model(model),
-            Err(e)
-                if brdf_models::MODELS
-                    .iter()
-                    .any(|m| named(&args.file, m.name)) =>
-            {
-                return Err(e.into());
-            }
-            Err(_) => return Err(no_file.into()),
-        },
-    };
+    let source = one::Source::of(context, &args.file, args.reading)?;
     scene_io::write::folder(&args.output)?;
     scene_io::write::check(&args.output.join("fit.json"))?;
     let mut fitted = one::fit_source(context, &source, args, &families)?;
@@ -93,13 +77,6 @@ pub(crate) fn run(context: &Context, args: &Fit) -> Result<()> {
     report.written.push(args.output.join("fit.json"));
     one::write_json(&args.output.join("fit.json"), &report)?;
     context.report(&report, |out| report.print(out))
-}
-
-/// Whether `text` begins with this model's name.
-fn named(text: &str, name: &str) -> bool {
-    text.split(':')
-        .next()
-        .is_some_and(|head| head.trim() == name)
 }
 
 /// The families asked for; `all` means those that have as many lobes.

@@ -24,8 +24,8 @@ pub(crate) fn run(context: &Context, args: &Plot) -> Result<()> {
     }
     let mut materials: Vec<Named> = Vec::new();
     for file in &args.files {
-        let loaded = load::measured(context, file, args.reading)?;
-        materials.push((load::label(file), loaded.measured));
+        let subject = load::subject(context, file, args.reading)?;
+        materials.push((subject.label, subject.measured));
     }
     let svg = match args.kind {
         PlotKind::Polar => polar(&materials, args).svg(900)?,

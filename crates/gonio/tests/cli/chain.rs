@@ -270,3 +270,23 @@ fn slow_rows_become_a_grid() {
         assert!((grid[c] / rows[c] - 1.0).abs() < 0.01, "{grid:?} {rows:?}");
     }
 }
+
+#[test]
+fn models_are_evaluated_and_plotted_like_files() {
+    let bench = Bench::new();
+    let value = bench.json("eval lambert:kd=0.5/0.25/1 --theta-i 20 --theta-o 70");
+    assert_eq!(value["format"], "model", "{value}");
+    for (f, kd) in numbers(&value["value"]).into_iter().zip([0.5, 0.25, 1.0]) {
+        assert!((f * std::f64::consts::PI - kd).abs() < 1e-12, "{value}");
+    }
+    bench.text("plot ggx:alpha=0.1 lambert:kd=0.5 --theta-i 30 -o both.svg");
+    let drawn = String::from_utf8(bench.read("both.svg")).unwrap();
+    assert!(
+        drawn.contains("ggx:alpha=0.1") && drawn.contains("lambert:kd=0.5"),
+        "no legend"
+    );
+    let refused = bench.run("plot ggx:alpha=9 -o broken.svg");
+    assert_eq!(refused.code, 1);
+    assert!(refused.err.contains("alpha"), "{}", refused.err);
+    assert!(!bench.path("broken.svg").exists());
+}

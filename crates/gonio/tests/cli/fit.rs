@@ -112,7 +112,7 @@ fn what_cannot_be_fitted_is_said_in_one_line() {
         (
             "fit red.binary --models wart -o out",
             2,
-            "unknown model `wart`",
+            "no model `wart` to fit",
         ),
         (
             "fit red.binary --models eon --lobes 2 -o out",

@@ -8,9 +8,10 @@ use anyhow::{Result, bail};
 use brdf::{Brdf, Measured, Status};
 use brdf_fit::export::exports;
 use brdf_fit::{Family, Fit, FitData, Samples, fit_all};
-use brdf_models::ParsedModel;
+use brdf_models::{ParsedModel, parse_model};
 use scene_io::load::{MAX_FILE_BYTES, bytes};
 use scene_io::material::{LoadedMeasured, Surface, load_measured};
+use scene_io::scene::MaterialSpec;
 use scene_io::sealed::content_hash;
 use std::path::{Path, PathBuf};
 
@@ -28,6 +29,17 @@ pub(super) enum Source {
 }
 
 impl Source {
+    /// A model if the text describes one and no such file exists, else a file.
+    pub(super) fn of(context: &Context, text: &str, reading: Reading) -> Result<Self> {
+        Ok(match MaterialSpec::from_argument(text) {
+            MaterialSpec::Model(spec) => Self::Model(parse_model(&spec.model)?),
+            _ => Self::File(
+                context.places.data.find(text.as_ref(), "".as_ref())?,
+                reading,
+            ),
+        })
+    }
+
     pub(super) fn name(&self) -> String {
         match self {
             Self::File(path, _) => path.display().to_string(),

@@ -4,14 +4,16 @@ use super::one::Source;
 use crate::verbs::Context;
 use crate::{curves, load};
 use anyhow::Result;
-use brdf::Brdf;
+use brdf::{Brdf, Computed, Measured};
 use brdf_fit::Fit;
 use brdf_fit::export::{Model3, scene_materials};
 use plot::{Curve, PolarPlot, Radius, Stroke};
-use scene_io::image::{Picture, write_png};
+use scene_io::image::{Metadata, Picture, write_png};
 use scene_io::{Overrides, SceneFile, build_scene};
 use spectrum::{Basis, RgbSpace};
+use std::iter;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use tracer::Film;
 
 /// Fits shown beside the measurement: more would not be told apart.
@@ -34,6 +36,10 @@ pub(super) fn polar(
     let mut drawn: Vec<Curve> = Vec::new();
     let weights = Basis::Rgb(RgbSpace::srgb()).luminance_weights();
     let luminance = |f: [f64; 3]| -> f64 { f.iter().zip(&weights).map(|(f, w)| f * w).sum() };
+    let data: Arc<dyn Measured> = match source {
+        Source::File(path, reading) => load::measured(context, path, *reading)?.measured,
+        Source::Model(model) => Arc::new(Computed::new(Arc::clone(&model.built.brdf))),
+    };
     for (k, deg) in LIGHTS_DEG.into_iter().enumerate() {
         let legend = |name: &str| {
             if k == 0 {
@@ -43,16 +49,12 @@ pub(super) fn polar(
             }
         };
         let theta = f64::to_radians(deg);
-        drawn.push(match source {
-            Source::File(path, reading) => {
-                let loaded = load::measured(context, path, *reading)?;
-                curves::luminance_lobe(&*loaded.measured, &legend("data"), theta, [0, 0, 0])
-            }
-            Source::Model(model) => {
-                let f = |wi, wo| luminance(model.built.brdf.eval(wi, wo));
-                curves::lobe_of(f, &legend("data"), theta, [0, 0, 0])
-            }
-        });
+        drawn.push(curves::luminance_lobe(
+            &*data,
+            &legend("data"),
+            theta,
+            [0, 0, 0],
+        ));
         for (n, fit) in fits.iter().take(SHOWN).enumerate() {
             let model = Model3::new(&fit.parts)?;
             let f = |wi, wo| luminance(model.eval(wi, wo));
@@ -76,60 +78,69 @@ pub(super) fn polar(
     Ok(path)
 }
 
-/// The measurement on the left, the best fits after it, best first, under one light.
+/// The measurement on the left, the best fits after it, best first, each alone under one light.
 pub(super) fn spheres(
     context: &Context,
     source: &Source,
     fits: &[Fit],
     folder: &Path,
 ) -> Result<PathBuf> {
-    let fits = &fits[..fits.len().min(SHOWN)];
-    let mut materials = match source {
-        Source::File(path, _) => format!("        \"m0\": File(path: {:?}),\n", absolute(path)),
-        Source::Model(model) => format!("        \"m0\": Model(model: \"{model}\"),\n"),
+    let measured = match source {
+        Source::File(path, _) => format!("        \"m\": File(path: {:?}),\n", absolute(path)),
+        Source::Model(model) => format!("        \"m\": Model(model: \"{model}\"),\n"),
     };
-    for (k, fit) in fits.iter().enumerate() {
-        materials.push_str(&scene_materials(&format!("m{}", k + 1), &fit.parts));
+    let fitted = fits.iter().take(SHOWN);
+    let materials = iter::once(measured).chain(fitted.map(|fit| scene_materials("m", &fit.parts)));
+    let path = folder.join("spheres.png");
+    let (mut pictures, mut built) = (Vec::new(), None);
+    for materials in materials {
+        let mut file = SceneFile::from_text(&scene(&materials), &path, Path::new(""))?;
+        if let Source::File(_, reading) = source {
+            // the fits are models: it is the only file
+            let materials = file.materials.values_mut();
+            materials.for_each(|spec| reading.apply(spec));
+        }
+        let one = build_scene(file, &Overrides::default(), &context.places)?;
+        let mut film = Film::new(one.size.0, one.size.1, 8);
+        tracer::render(&one.scene, &one.settings, &mut film, &())?;
+        pictures.push(Picture::of_film(&film)?);
+        built = Some(one);
     }
-    let count = fits.len() + 1;
-    let shapes: String = (0..count)
-        .map(|k| {
-            let x = 2.2 * (k as f64 - 0.5 * (count - 1) as f64);
-            format!(
-                "        (form: Sphere(center: ({x:.3}, 0, 0), radius: 1), material: \"m{k}\"),\n"
-            )
-        })
-        .collect();
-    // far away, so that all spheres are seen alike
-    let distance = 60.0 * count as f64;
-    let fov = 2.0 * (1.15 / distance).atan().to_degrees();
-    let width = SIDE * count as u32;
-    let text = format!(
+    if let Some(built) = built {
+        let picture = side_by_side(&pictures);
+        write_png(&path, &picture, built.tone_map(&picture))?;
+    }
+    Ok(path)
+}
+
+/// A sphere of material `m`, so far away that its picture is nearly orthographic. It is alone: narrow lobes would show neighbours.
+fn scene(materials: &str) -> String {
+    let fov = 2.0 * (1.15_f64 / 60.0).atan().to_degrees();
+    format!(
         "(
-    camera: (position: (0, 0, {distance}), target: (0, 0, 0), fov_y_deg: {fov:.6}),
-    film: (width: {width}, height: {SIDE}),
+    camera: (position: (0, 0, 60), target: (0, 0, 0), fov_y_deg: {fov:.6}),
+    film: (width: {SIDE}, height: {SIDE}),
     render: (spp: {SPP}, depth: 1),
     materials: {{
 {materials}    }},
-    shapes: [
-{shapes}    ],
+    shapes: [(form: Sphere(center: (0, 0, 0), radius: 1), material: \"m\")],
     lights: [Constant(radiance: 0.3), Directional(direction: (-1, -1.2, -0.9), irradiance: 2.5)],
 )
 "
-    );
-    let path = folder.join("spheres.png");
-    let mut file = SceneFile::from_text(&text, &path, Path::new(""))?;
-    if let Source::File(_, reading) = source {
-        // the fits are models: it is the only file
-        let materials = file.materials.values_mut();
-        materials.for_each(|spec| reading.apply(spec));
+    )
+}
+
+/// Pictures of one size, from left to right.
+fn side_by_side(pictures: &[Picture]) -> Picture {
+    let (side, count) = (SIDE as usize, pictures.len());
+    let rows = (0..side).flat_map(|y| pictures.iter().map(move |p| &p.pixels[y * side..][..side]));
+    Picture {
+        width: side * count,
+        height: side,
+        pixels: rows.flatten().copied().collect(),
+        variance: None,
+        metadata: Metadata::default(),
     }
-    let built = build_scene(file, &Overrides::default(), &context.places)?;
-    let mut film = Film::new(built.size.0, built.size.1, 8);
-    tracer::render(&built.scene, &built.settings, &mut film, &())?;
-    let picture = Picture::of_film(&film)?;
-    write_png(&path, &picture, built.tone_map(&picture))?;
-    Ok(path)
 }
 
 fn absolute(path: &Path) -> PathBuf {
