@@ -72,7 +72,7 @@ pub(crate) fn lobes(material: &dyn Measured, theta_i: f64) -> Vec<Curve> {
     by_channel(material, scale, rows)
 }
 
-/// A curve for each shown channel from rows of all channels.
+/// A curve for each shown channel from rows of all channels; one for all of them where they are the same.
 fn by_channel(
     material: &dyn Measured,
     scale: f64,
@@ -85,6 +85,10 @@ fn by_channel(
         for (curve, (c, ..)) in curves.iter_mut().zip(&shown) {
             curve.points.push((x, scale * values[*c]));
         }
+    }
+    if curves.iter().all(|c| c.points == curves[0].points) && curves.len() > 1 {
+        let points = curves.swap_remove(0).points;
+        return vec![curve("all channels", [40, 40, 40], points)];
     }
     curves
 }
@@ -209,6 +213,14 @@ mod tests {
         fn symmetry(&self) -> Symmetry {
             Symmetry::FULL
         }
+    }
+
+    #[test]
+    fn grey_is_one_curve_and_colour_is_three() {
+        let grey = brdf_models::parse_model("ggx:alpha=0.2").unwrap();
+        let drawn = lobes(&brdf::Computed::new(grey.built.brdf), 0.6);
+        assert!(drawn.len() == 1 && drawn[0].label == "all channels");
+        assert_eq!(lobes(&Lobe(Basis::Rgb(RgbSpace::srgb())), 0.6).len(), 3);
     }
 
     #[test]
