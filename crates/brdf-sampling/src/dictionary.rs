@@ -1,6 +1,6 @@
 //! Mixtures of GGX lobes and a cosine: a few hundred bytes, and the yardstick for tables.
 //!
-//! Lobes are sampled by their visible normals (spherical caps [Dupuy2023]), which reflects some samples below
+//! Lobes are sampled by their visible normals (spherical caps [DupuyBenyoub2023]), which reflects some samples below
 //! the horizon: those are lost (`None`). Weights are given at slices of the viewer's elevation and blend
 //! linearly; they minimise the variance, by the multiplicative updates of the half-vector table.
 

@@ -1,4 +1,4 @@
-//! Every `[Key2007]` in code and documentation stands in docs/references.bib.
+//! Every `[Key2007]` in code and documentation stands in docs/references.bib, and every paper there once.
 
 use crate::repo;
 use anyhow::Result;
@@ -14,7 +14,7 @@ pub(super) fn complaints() -> Result<Vec<String>> {
         .map(|m| m.as_str())
         .collect();
     let key = Regex::new(r"\[([A-Z][A-Za-z]+[0-9]{2,4}[a-z]?)\\?\]")?;
-    let mut complaints = Vec::new();
+    let mut complaints = twice(&bib)?;
     let mut files = repo::files("crates", ".rs")?;
     files.extend(repo::files("docs", ".md")?);
     files.extend(repo::files("scenes", ".ron")?);
@@ -43,4 +43,15 @@ pub(super) fn complaints() -> Result<Vec<String>> {
         }
     }
     Ok(complaints)
+}
+
+/// Papers that stand in the bibliography under two keys.
+fn twice(bib: &str) -> Result<Vec<String>> {
+    let doi = Regex::new(r"doi\s*=\s*\{([^}]+)\}")?;
+    let mut seen = BTreeSet::new();
+    let all = doi.captures_iter(bib).filter_map(|c| c.get(1));
+    Ok(all
+        .filter(|m| !seen.insert(m.as_str()))
+        .map(|m| format!("docs/references.bib: two entries of {}", m.as_str()))
+        .collect())
 }
