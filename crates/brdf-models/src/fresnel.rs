@@ -64,17 +64,23 @@ impl<const N: usize> Fresnel<N> {
     }
 
     /// [`Self::eval`] with the squared sine of the angle, too, for who knows it better than 1 - c^2 does.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn eval_at(&self, c: f64, sin2: f64) -> [f64; N] {
-        let own = std::array::from_fn(|i| unpolarised(self.n[i], self.k[i], [c, sin2]));
+        let mut own = [0.0; N];
+        for i in 0..N {
+            own[i] = unpolarised(self.n[i], self.k[i], [c, sin2]);
+        }
         let Some(mix) = &self.mix else {
             return own;
         };
-        std::array::from_fn(|i| {
-            let of = neighbours(i, N);
-            1.0 - (0..3).map(|j| mix[i][j] * (1.0 - own[of[j]])).sum::<f64>()
-        })
+        let mut mixed = [0.0; N];
+        for i in 0..N {
+            let ([a, b, d], share) = (neighbours(i, N), mix[i]);
+            let loss = |j: usize| 1.0 - own[j];
+            mixed[i] = 1.0 - (share[0] * loss(a) + share[1] * loss(b) + share[2] * loss(d));
+        }
+        mixed
     }
 
     /// [`Self::eval_at`] for a packet of cosines and squared sines.
@@ -117,7 +123,7 @@ pub(crate) const fn neighbours(i: usize, count: usize) -> [usize; 3] {
 }
 
 /// Re (n + ik)^2 - 1, with the digits of indices close to 1.
-#[inline]
+#[inline(always)]
 fn excess(n: f64, k: f64) -> f64 {
     (n - 1.0) * (n + 1.0) - k * k
 }
@@ -127,37 +133,35 @@ fn excess(n: f64, k: f64) -> f64 {
 /// With a + ib = sqrt((n + ik)^2 - sin^2): Rs = |a + ib - c|^2 / |a + ib + c|^2 and Rp = Rs times the same
 /// with c -> sin^2 / cos; written so that nothing cancels for k = 0, large k, n close to 1, or grazing angles: with
 /// e = Re (n + ik)^2 - 1 the real part of the root's square is e + c^2 or (e + 1) - sin^2, whichever subtracts less, and
-/// a - c = (e + b^2)/(a + c).
-#[inline]
+/// a - c = (e + b^2)/(a + c). Indices are far from the sixth powers that would overflow. Without branches, so that channels
+/// side by side become vector code.
+#[inline(always)]
 fn unpolarised(n: f64, k: f64, [c, s2]: [f64; 2]) -> f64 {
-    if n.is_infinite() {
-        return 1.0;
-    }
     let c2 = c * c;
     let e = excess(n, k);
     let re = if c2 < s2 { e + c2 } else { n * n - k * k - s2 };
     let im = n * k;
-    // indices are far from the squares that would overflow: no hypot needed
     let r = (re * re + 4.0 * im * im).sqrt();
     // a^2 and b^2 = (r +- re)/2: take the sum that does not cancel, the other by a b = n k
     let big = 0.5 * (r + re.abs());
     let small = if big > 0.0 { im * im / big } else { 0.0 };
-    let (a2, b2) = if re >= 0.0 {
-        (big, small)
-    } else {
-        (small, big)
-    };
+    let a2 = if re >= 0.0 { big } else { small };
+    let b2 = if re >= 0.0 { small } else { big };
     let a = a2.sqrt();
     let plus = a + c;
-    // neither index nor cosine: no boundary, or one that light runs along
-    if plus <= 0.0 && b2 <= 0.0 {
-        return if e.abs() > 0.0 { 1.0 } else { 0.0 };
-    }
-    let minus = if re >= 0.0 { (e + b2) / plus } else { a - c };
-    let rs = (minus * minus + b2) / (plus * plus + b2);
+    let plus2 = plus * plus;
+    // (a - c)(a + c)
+    let product = if re >= 0.0 { e + b2 } else { (a - c) * plus };
+    let (s_num, s_den) = (product * product + b2 * plus2, plus2 * (plus2 + b2));
     let (minus, plus) = (a * c - s2, a * c + s2);
-    let rp = (minus * minus + b2 * c2) / (plus * plus + b2 * c2);
-    0.5 * rs * (1.0 + if rp.is_nan() { 1.0 } else { rp })
+    let (p_num, p_den) = (minus * minus + b2 * c2, plus * plus + b2 * c2);
+    // along the normal Rp = Rs, also where a is 0
+    let rp = if p_den > 0.0 { p_num / p_den } else { 1.0 };
+    let f = 0.5 * s_num / s_den * (1.0 + rp);
+    // neither index nor cosine: no boundary, or one that light runs along
+    let edge = if e.abs() > 0.0 { 1.0 } else { 0.0 };
+    let f = if s_den > 0.0 { f } else { edge };
+    if n < f64::INFINITY { f } else { 1.0 }
 }
 
 /// [`unpolarised`] in f32, of one finite index.

@@ -11,9 +11,11 @@ mod series;
 
 use brdf::{Brdf, DirectionSample, DirectionSampler, Symmetry};
 use glam::{DVec2, DVec3};
-use std::f64::consts::{FRAC_1_PI, PI, TAU};
+use pulp::{Simd, WithSimd};
+use std::f64::consts::{FRAC_1_PI, TAU};
 
 use crate::beckmann::Cavities;
+use crate::elementary::exp;
 use crate::fresnel::Fresnel;
 use crate::half::{Half, MIN_COS, above, from_tan2, reflect};
 use crate::lobe::{ONE_MINUS, cosine, cosine_pdf};
@@ -21,7 +23,7 @@ use crate::registry::{Built, DefaultValue, Laws, ModelInfo, Parameter, Values, m
 use crate::smith::Smith;
 
 use lambert_w::lambert_w;
-use series::series;
+use series::{SIDE, series};
 
 /// f = kd/pi + ks (F e^-g S delta + F (|V|^2/Vz)^2 S D / (pi ci co)).
 ///
@@ -130,12 +132,44 @@ pub(crate) fn build<const N: usize>(values: &Values) -> Built<N> {
     })
 }
 
+/// k^2, k = 2 pi/lambda, 1/um^2.
+#[inline(always)]
+fn wave_number2(lambda_nm: f64) -> f64 {
+    let k = 1e3 * TAU / lambda_nm;
+    k * k
+}
+
+/// e^-x is 0 from here on, as [`exp`] has it.
+const NOTHING: f64 = 700.0;
+
 /// What all channels share about a pair of directions.
 struct Shared {
     /// S(i) S(o) / (ci co).
     shadow_over_cos2: f64,
     /// (sigma / sigma0)^2.
     apparent: f64,
+}
+
+impl Shared {
+    #[inline(always)]
+    fn new(i: &Smith, o: &Smith) -> Self {
+        let s = |d: &Smith| (1.0 - 0.5 * d.erfc_q) * d.g1_over_cos;
+        // x e^(x^2/2) = c, so x^2 = W(c^2) and sigma^2 = sigma0^2/(1 + x^2)
+        let c2 = (i.tan * i.erfc_q + o.tan * o.erfc_q).powi(2) * (FRAC_1_PI / 8.0);
+        Self {
+            shadow_over_cos2: s(i) * s(o),
+            apparent: 1.0 / (1.0 + lambert_w(c2)),
+        }
+    }
+
+    /// Over a surface without slopes.
+    #[inline(always)]
+    fn smooth(wi: DVec3, wo: DVec3) -> Self {
+        Self {
+            shadow_over_cos2: 1.0 / (wi.z * wo.z),
+            apparent: 1.0,
+        }
+    }
 }
 
 impl<const N: usize> He<N> {
@@ -152,91 +186,140 @@ impl<const N: usize> He<N> {
         if wo.z <= MIN_COS {
             return [0.0; N];
         }
-        let shared = self.shared(wo, wo);
+        let shared = self.mirrored(wo);
         let (shadow, f) = (
             shared.shadow_over_cos2 * wo.z * wo.z,
             self.fresnel.eval(wo.z.min(1.0)),
         );
-        std::array::from_fn(|c| f[c] * (-self.phase(c, 2.0 * wo.z, &shared)).exp() * shadow)
+        let phase = self.phase(2.0 * wo.z, &shared);
+        let k2 = self.lambda_nm.map(wave_number2);
+        std::array::from_fn(|c| f[c] * (-k2[c] * phase).exp() * shadow)
     }
 
-    #[inline]
+    #[inline(always)]
     fn shared(&self, wi: DVec3, wo: DVec3) -> Shared {
         let m = self.slope();
         if m <= 0.0 {
-            return Shared {
-                shadow_over_cos2: 1.0 / (wi.z * wo.z),
-                apparent: 1.0,
-            };
+            return Shared::smooth(wi, wo);
         }
-        let (i, o) = (Smith::new(wi, m), Smith::new(wo, m));
-        let s = |d: &Smith| (1.0 - 0.5 * d.erfc_q) * d.g1_over_cos;
-        // x e^(x^2/2) = c, so x^2 = W(c^2) and sigma^2 = sigma0^2/(1 + x^2)
-        let c = (i.tan * i.erfc_q + o.tan * o.erfc_q) / (8.0 * PI).sqrt();
-        let apparent = 1.0 / (1.0 + lambert_w(c * c));
-        Shared {
-            shadow_over_cos2: s(&i) * s(&o),
-            apparent,
-        }
+        Shared::new(&Smith::new(wi, m), &Smith::new(wo, m))
     }
 
-    /// k = 2 pi/lambda of channel `c`, 1/um.
-    #[inline]
-    fn wave_number(&self, c: usize) -> f64 {
-        TAU / (1e-3 * self.lambda_nm[c])
+    /// [`Self::shared`] for light that is mirrored toward `wo`.
+    #[inline(always)]
+    fn mirrored(&self, wo: DVec3) -> Shared {
+        let m = self.slope();
+        if m <= 0.0 {
+            return Shared::smooth(wo, wo);
+        }
+        let o = Smith::new(wo, m);
+        Shared::new(&o, &o)
     }
 
-    /// g = (k sigma Vz)^2.
-    #[inline]
-    fn phase(&self, c: usize, v_z: f64, shared: &Shared) -> f64 {
-        let x = self.wave_number(c) * self.sigma_um * v_z;
+    /// (sigma Vz)^2, which is g/k^2.
+    #[inline(always)]
+    fn phase(&self, v_z: f64, shared: &Shared) -> f64 {
+        let x = self.sigma_um * v_z;
         x * x * shared.apparent
     }
 
-    /// The widened mirror reflection: [`crate::Ward`]'s bounded form, albedo 1.
-    #[inline]
-    fn mirror_lobe(&self, half: &Half) -> f64 {
-        let alpha = self.mirror_width;
-        let e = (-half.tan2_over(alpha, alpha)).exp();
-        if e > 0.0 {
-            let z2 = half.h.z * half.h.z;
-            e * half.len2 / (z2 * z2) * FRAC_1_PI / (alpha * alpha)
-        } else {
-            0.0
+    /// `mirror` times the peak of the widened mirror reflection: [`crate::Ward`]'s bounded form but for its exponential,
+    /// albedo 1.
+    #[inline(always)]
+    fn mirror_peak(&self, half: &Half) -> f64 {
+        let (z2, alpha) = (half.h.z * half.h.z, self.mirror_width);
+        self.mirror * half.len2 * FRAC_1_PI / (z2 * z2 * (alpha * alpha))
+    }
+}
+
+/// An evaluation, compiled for each instruction set.
+struct Eval<'a, const N: usize>(&'a He<N>, DVec3, DVec3);
+
+impl<const N: usize> WithSimd for Eval<'_, N> {
+    type Output = [f64; N];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> [f64; N] {
+        let Self(he, wi, wo) = self;
+        let Some(half) = Half::new(wi, wo) else {
+            return [0.0; N];
+        };
+        let shared = he.shared(wi, wo);
+        let terms = Terms::new(he, &half, &shared);
+        let fresnel = he.fresnel.eval_at(half.cos_d(), half.sin2_d());
+        let mirror = he.mirror_peak(&half) * shared.shadow_over_cos2 * (wi.z * wo.z);
+        let mut f = he.diffuse;
+        for first in (0..N).step_by(SIDE) {
+            let lobes = terms.lobes(he, first, mirror);
+            for (c, lobe) in (first..N).zip(lobes) {
+                f[c] = f[c] * FRAC_1_PI + he.specular[c] * fresnel[c] * lobe;
+            }
         }
+        f
+    }
+}
+
+/// What the series of all channels share.
+struct Terms {
+    /// g/k^2.
+    phase: f64,
+    /// w/k^2.
+    spread: f64,
+    /// (|V|^2/Vz)^2 S tau^2/(16 pi ci co), the factor of the series over k^2.
+    factor: f64,
+    /// tan^2/width^2 of the mirror reflection.
+    mirror_tan2: f64,
+}
+
+impl Terms {
+    #[inline(always)]
+    fn new<const N: usize>(he: &He<N>, half: &Half, shared: &Shared) -> Self {
+        let ratio = half.len2 / half.h.z;
+        let v_xy2 = half.h.x * half.h.x + half.h.y * half.h.y;
+        let tau2 = he.tau_um * he.tau_um;
+        Self {
+            phase: he.phase(half.h.z, shared),
+            spread: 0.25 * tau2 * v_xy2,
+            factor: ratio * ratio * shared.shadow_over_cos2 * (FRAC_1_PI / 16.0 * tau2),
+            mirror_tan2: half.tan2_over(he.mirror_width, he.mirror_width),
+        }
+    }
+
+    /// Series and mirror reflection of the channels from `first` on, but for their reflectance; `mirror` is the peak of
+    /// the mirror's lobe.
+    #[inline(always)]
+    fn lobes<const N: usize>(&self, he: &He<N>, first: usize, mirror: f64) -> [f64; SIDE] {
+        let count = SIDE.min(N - first);
+        let (mut lambda, mut weight) = ([1.0; SIDE], [0.0; SIDE]);
+        lambda[..count].copy_from_slice(&he.lambda_nm[first..][..count]);
+        weight[..count].copy_from_slice(&he.specular[first..][..count]);
+        let (mut k2, mut g, mut w) = ([0.0; SIDE], [0.0; SIDE], [0.0; SIDE]);
+        for c in 0..SIDE {
+            k2[c] = wave_number2(lambda[c]);
+            // fits ask for the lobes one a channel: what has no weight needs no series
+            g[c] = if weight[c] > 0.0 {
+                k2[c] * self.phase
+            } else {
+                0.0
+            };
+            w[c] = k2[c] * self.spread;
+        }
+        let mut lobes = series(&g, &w);
+        for c in 0..SIDE {
+            lobes[c] *= k2[c] * self.factor;
+        }
+        if mirror > 0.0 && self.mirror_tan2 < NOTHING {
+            for c in 0..SIDE {
+                lobes[c] += mirror * exp::<13>(-(g[c] + self.mirror_tan2));
+            }
+        }
+        lobes
     }
 }
 
 impl<const N: usize> Brdf<N> for He<N> {
     fn eval(&self, wi: DVec3, wo: DVec3) -> [f64; N] {
-        let Some(half) = Half::new(wi, wo) else {
-            return [0.0; N];
-        };
-        let shared = self.shared(wi, wo);
-        let f = self.fresnel.eval_at(half.cos_d(), half.sin2_d());
-        let shadow = shared.shadow_over_cos2 * (wi.z * wo.z);
-        let mirror = self.mirror * self.mirror_lobe(&half) * shadow;
-        let ratio = half.len2 / half.h.z;
-        let geometry = ratio * ratio * shared.shadow_over_cos2 * FRAC_1_PI;
-        let v_xy2 = half.h.x * half.h.x + half.h.y * half.h.y;
-        std::array::from_fn(|c| {
-            let diffuse = self.diffuse[c] * FRAC_1_PI;
-            // fits ask for the lobes one a channel: what has no weight needs no series
-            if self.specular[c] <= 0.0 {
-                return diffuse;
-            }
-            let k_tau = self.wave_number(c) * self.tau_um;
-            let k2_tau2 = k_tau * k_tau;
-            let g = self.phase(c, half.h.z, &shared);
-            let rough = geometry * (k2_tau2 / 16.0) * series(g, 0.25 * k2_tau2 * v_xy2);
-            // a mirror term that is 0 anyway is not worth an exponential
-            let smooth = if mirror > 0.0 {
-                mirror * (-g).exp()
-            } else {
-                0.0
-            };
-            diffuse + self.specular[c] * f[c] * (smooth + rough)
-        })
+        brdf::arch().dispatch(Eval(self, wi, wo))
     }
 
     fn symmetry(&self) -> Symmetry {
@@ -256,19 +339,20 @@ const COSINE_SHARE: f64 = 0.1;
 
 impl<const N: usize> He<N> {
     fn plan(&self, wo: DVec3) -> Plan {
-        let shared = self.shared(wo, wo);
+        let shared = self.mirrored(wo);
         let shadow = shared.shadow_over_cos2 * wo.z * wo.z;
         let f = self.fresnel.eval(wo.z.min(1.0));
+        let phase = self.phase(2.0 * wo.z, &shared);
+        let k2 = self.lambda_nm.map(wave_number2);
         let (mut mirror, mut rough, mut width2) = (0.0, 0.0, 0.0);
         for c in 0..N {
             // 1 - e^-g of a smooth surface or a low viewer is all digits that 1 - e would lose
-            let scattered = -(-self.phase(c, 2.0 * wo.z, &shared)).exp_m1();
+            let scattered = -(-k2[c] * phase).exp_m1();
             let weight = self.specular[c] * f[c] * shadow;
             mirror += weight * (1.0 - scattered) * self.mirror;
             rough += weight * scattered;
             // exp(-w/m) as a lobe in tan^2 of the half vector: m = 1 of the series for a smooth surface
-            let first = 2.0 / (self.wave_number(c) * self.tau_um * 2.0 * wo.z);
-            width2 += first * first;
+            width2 += 1.0 / (k2[c] * self.tau_um * self.tau_um * wo.z * wo.z);
         }
         // and m = g, the geometrical limit, for a rough one
         let geometric = self.slope() * self.slope() * shared.apparent;
@@ -292,11 +376,11 @@ impl<const N: usize> He<N> {
             return 0.0;
         };
         let alpha = self.mirror_width;
-        let e = (-half.tan2_over(alpha, alpha)).exp();
-        let mirror = if e > 0.0 && plan.mirror > 0.0 {
+        let tan2 = half.tan2_over(alpha, alpha);
+        let mirror = if tan2 < NOTHING && plan.mirror > 0.0 {
             // density of h over 4 (h.wo) = 2 |H|
             let z3 = half.h.z * half.h.z * half.h.z;
-            plan.mirror * e * 0.5 * half.len2 / z3 * FRAC_1_PI / (alpha * alpha)
+            plan.mirror * exp::<13>(-tan2) * 0.5 * half.len2 / z3 * FRAC_1_PI / (alpha * alpha)
         } else {
             0.0
         };

@@ -246,16 +246,17 @@ mod tests {
 
     #[test]
     fn copper_reflects_as_others_measured() {
-        // n and k of [Hagemann1975] at 4 wavelengths: other samples, other method
-        for (nm, n, k) in [
-            (476.9, 1.152, 2.50),
-            (563.6, 0.826, 2.60),
-            (619.9, 0.272, 3.24),
-            (652.5, 0.214, 3.67),
+        // n and k of [Hagemann1975] at 4 wavelengths: other samples, other method. What they differ by, at most 0.0171 at
+        // 476.9 nm and 0.0080 at the others, is not our interpolation: their n of 1.152 is below every row around it here,
+        // 1.25 and 1.22, at the same k
+        for (nm, n, k, apart) in [
+            (476.9, 1.152, 2.50, 0.0172),
+            (563.6, 0.826, 2.60, 0.0085),
+            (619.9, 0.272, 3.24, 0.0085),
+            (652.5, 0.214, 3.67, 0.0085),
         ] {
             let theirs = Fresnel::from_index([n], [k]).eval(1.0)[0];
-            // what two laboratories differ by
-            assert_close(normal("cu", nm), theirs, 0.02, &format!("{nm} nm"));
+            assert_close(normal("cu", nm), theirs, apart, &format!("{nm} nm"));
         }
     }
 

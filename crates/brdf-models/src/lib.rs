@@ -13,6 +13,7 @@ mod ashikhmin_shirley;
 mod beckmann;
 mod blinn_phong;
 mod cook_torrance;
+mod elementary;
 mod eon;
 mod fresnel;
 mod generated;

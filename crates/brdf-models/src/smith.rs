@@ -1,7 +1,8 @@
 //! Smith's shadowing of Gaussian surfaces [Smith1967], free of the division by the cosine.
 
+use crate::elementary::gauss_and_erfc;
 use glam::DVec3;
-use std::f64::consts::PI;
+use std::f64::consts::FRAC_2_SQRT_PI;
 
 /// What Smith's theory says about one direction over a surface of rms slope m / sqrt 2.
 #[derive(Clone, Copy, Debug)]
@@ -16,21 +17,13 @@ pub(crate) struct Smith {
 
 impl Smith {
     /// The direction `w`, above the horizon, and the roughness `m` > 0.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn new(w: DVec3, m: f64) -> Self {
         let (c, s) = (w.z, (w.x * w.x + w.y * w.y).sqrt());
-        let q = c / (m * s);
         // beyond 6 erfc is 2e-17, and the terms below are under 1e-17 of c
-        if q > 6.0 {
-            return Self {
-                erfc_q: 0.0,
-                g1_over_cos: 1.0 / c,
-                tan: s / c,
-            };
-        }
-        let erfc_q = libm::erfc(q);
+        let [gauss, erfc_q] = gauss_and_erfc(c / (m * s));
         // Lambda = (exp(-q^2)/(sqrt(pi) q) - erfc(q))/2, times the cosine
-        let c_lambda = 0.5 * ((-q * q).exp() * m * s / PI.sqrt() - c * erfc_q);
+        let c_lambda = 0.5 * (gauss * m * s * (0.5 * FRAC_2_SQRT_PI) - c * erfc_q);
         Self {
             erfc_q,
             g1_over_cos: 1.0 / (c + c_lambda.max(0.0)),

@@ -1,7 +1,10 @@
 //! The series of the directional-diffuse part of [He1991], at the same cost for every roughness.
+//!
+//! Everything is written for several channels side by side, without branches where it costs, so that it becomes vector
+//! code.
 
 use super::lambert_w;
-use std::f64::consts::TAU;
+use crate::elementary::{exp, ln, ln_ratio};
 
 /// From this largest term on the sum is taken as an integral, by its saddle point. There the expansion errs by 2e-5, and
 /// the lower end, where the summand is e^-22 of its peak, by less.
@@ -9,111 +12,125 @@ const FROM_SADDLE: f64 = 22.0;
 /// Least deviation of a summand that is nearly a Gaussian: its sum and its integral differ by 2 exp(-2 pi^2 0.9^2) = 2e-7
 /// [Trefethen2014].
 const WIDE: f64 = 0.9;
-/// Share of the largest term after which none are summed up.
-const NEGLIGIBLE: f64 = 1e-7;
-/// Most terms of the direct sum: [`FROM_SADDLE`], 5 deviations of at most 4.7, a few for small sums.
-const TERMS: usize = 56;
-/// Exponentials computed together.
-const WIDTH: usize = 8;
+/// Terms summed together; with fewer the compiler unrolls their loop in place of making it vector code.
+const WIDTH: usize = 16;
+/// Chunks of [`WIDTH`] terms, at most: all of a sum whose largest term is [`FROM_SADDLE`].
+const CHUNKS: usize = 3;
+/// Where the largest term may be at most for 16 and 32 terms to leave out less than 2e-6 of the sum; for w > 0 it is
+/// less still.
+const REACH: [Place; CHUNKS - 1] = [
+    Place::new(4.7, 1.547_562_508_716_013),
+    Place::new(13.5, 2.602_689_685_444_384),
+];
+/// Where sums turn into integrals.
+const SWITCH: Place = Place::new(FROM_SADDLE, 3.091_042_453_358_316);
+/// Below, every term but the first of a sum above 1e-290 is nothing.
+const LEAST_G: f64 = 1e-140;
+/// Channels computed together; with fewer the compiler unrolls in place of making vector code.
+pub(super) const SIDE: usize = 8;
 
-/// sum over m >= 1 of e^-g g^m / (m! m) e^(-w/m), for g >= 0 and w >= 0, to 2e-5 relative.
+/// A place among the terms.
+struct Place {
+    square: f64,
+    ln: f64,
+}
+
+impl Place {
+    const fn new(m: f64, ln: f64) -> Self {
+        Self { square: m * m, ln }
+    }
+
+    /// Whether the largest term is beyond: it is where ln(g/m) + w/m^2 = 0, which falls with m.
+    #[inline(always)]
+    fn is_passed(&self, ln_g: f64, w: f64) -> bool {
+        w > self.square * (self.ln - ln_g)
+    }
+}
+
+/// sum over m >= 1 of e^-g g^m / (m! m) e^(-w/m) of every channel, for g >= 0 and w >= 0, to 2e-5 relative.
 ///
 /// Where the sum itself is below 1e-290, 0 is returned.
-#[inline]
-pub(super) fn series(g: f64, w: f64) -> f64 {
-    if g <= 0.0 {
-        return 0.0;
+#[inline(always)]
+pub(super) fn series(g: &[f64; SIDE], w: &[f64; SIDE]) -> [f64; SIDE] {
+    let mut ln_g = [0.0; SIDE];
+    let (mut near, mut more) = ([false; SIDE], [false; CHUNKS - 1]);
+    for k in 0..SIDE {
+        ln_g[k] = ln(g[k].max(f64::MIN_POSITIVE));
+        near[k] = !SWITCH.is_passed(ln_g[k], w[k]) | (g[k] <= LEAST_G);
     }
-    // the largest term is near m0, where ln(g/m) + w/m^2 = 0: m0 = g exp(W(2w/g^2)/2)
-    let tilt = 2.0 * (w / g) / g;
-    if tilt > f64::MAX {
-        // g so small that every term but the first underflows
-        return direct(g, w, 1);
-    }
-    let rough = lambert_w::rough(tilt);
-    let m0 = g * (0.5 * rough).exp();
-    if m0 < FROM_SADDLE {
-        // to the right the summand falls like Poisson's, whatever w
-        return direct(g, w, (m0 + 5.0 * m0.sqrt() + 4.0) as usize);
-    }
-    let m0 = g * (0.5 * lambert_w::step(tilt, rough)).exp();
-    // the summand is nearly a Gaussian of this deviation
-    let deviation = (m0 / (1.0 + 2.0 * (w / m0) / m0)).sqrt();
-    if deviation > WIDE {
-        saddle(g, w, m0)
-    } else {
-        narrow(g, w, m0)
-    }
-}
-
-/// The first `terms` terms, each an exponential of its logarithm, eight at a time.
-#[inline]
-fn direct(g: f64, w: f64, terms: usize) -> f64 {
-    let ln_g = g.ln();
-    let mut sums = [0.0; WIDTH];
-    for chunk in 0..terms.min(TERMS).div_ceil(WIDTH) {
-        let first = chunk * WIDTH;
-        let (reciprocal, ln_factorial) = (
-            &RECIPROCAL[first..][..WIDTH],
-            &LN_FACTORIAL_M[first..][..WIDTH],
-        );
-        let base = first as f64 * ln_g - g;
-        let mut x = [0.0; WIDTH];
-        for k in 0..WIDTH {
-            x[k] = base + (k + 1) as f64 * ln_g - ln_factorial[k] - w * reciprocal[k];
-        }
-        let e = exp(&x);
-        for k in 0..WIDTH {
-            sums[k] += e[k];
+    let mut out = [0.0; SIDE];
+    if near.contains(&false) {
+        let wide;
+        (out, wide) = saddles(g, w);
+        for k in 0..SIDE {
+            near[k] |= !wide[k];
         }
     }
-    sums.iter().sum()
-}
-
-/// 1/m at m - 1.
-const RECIPROCAL: [f64; TERMS] = {
-    let mut table = [0.0; TERMS];
-    let mut m = 1;
-    while m <= TERMS {
-        table[m - 1] = 1.0 / m as f64;
-        m += 1;
-    }
-    table
-};
-
-/// e^x for x of at most a few units to 2e-7, without branches, so that the loop becomes vector code; 0 below -700.
-#[inline]
-fn exp(x: &[f64; WIDTH]) -> [f64; WIDTH] {
-    /// Adding it rounds to a whole number: 1.5 * 2^52.
-    const ROUND: f64 = 6_755_399_441_055_744.0;
-    let mut out = [0.0; WIDTH];
-    for k in 0..WIDTH {
-        let x_k = x[k].max(-708.0);
-        let shifted = x_k * std::f64::consts::LOG2_E + ROUND;
-        let r = x_k - (shifted - ROUND) * std::f64::consts::LN_2;
-        // Taylor: |r| <= ln 2 / 2, r^7/7! < 1.2e-7
-        let mut p = 1.0 / 720.0;
-        for c in [1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0] {
-            p = p * r + c;
+    // channels are much alike: all take as many terms as one of them needs
+    for (more, place) in more.iter_mut().zip(&REACH) {
+        for k in 0..SIDE {
+            *more |= near[k] & (g[k] > 0.0) & place.is_passed(ln_g[k], w[k]);
         }
-        // the whole number stands in the low bits of `shifted`
-        let exponent = shifted.to_bits().wrapping_add(1023) << 52;
-        let e = p * f64::from_bits(exponent);
-        out[k] = if x[k] < -700.0 { 0.0 } else { e };
+    }
+    let chunks = 1 + more.iter().filter(|more| **more).count();
+    for k in 0..SIDE {
+        if near[k] {
+            out[k] = if g[k] > 0.0 {
+                direct([g[k], ln_g[k], w[k]], chunks)
+            } else {
+                0.0
+            };
+        }
     }
     out
 }
 
-/// The sum as an integral over m of e^h(m), h as in [`ln_term`], by Laplace's method about the saddle point to second
-/// order in 1/m [Bender1999, 6.4]; `m` is near it.
-#[inline]
+/// The terms that matter, each an exponential of its logarithm.
+#[inline(always)]
+fn direct([g, ln_g, w]: [f64; 3], chunks: usize) -> f64 {
+    let mut sums = [0.0; WIDTH];
+    for ([m, reciprocal], ln_factorial) in M.iter().zip(&LN_FACTORIAL_M).take(chunks) {
+        for k in 0..WIDTH {
+            sums[k] += exp::<6>(m[k] * ln_g - g - ln_factorial[k] - w * reciprocal[k]);
+        }
+    }
+    // in halves, so that few additions wait for each other
+    for half in [8, 4, 2, 1] {
+        for k in 0..half {
+            sums[k] += sums[k + half];
+        }
+    }
+    sums[0]
+}
+
+/// The sums as integrals, and whether they may be taken so: whether the summand is wider than [`WIDE`].
+///
+/// One that is narrower and has its peak beyond [`FROM_SADDLE`] is e^-500 of what it would be for w = 0 there, and above
+/// 1e-290 only if the peak is below 27.
+#[inline(always)]
+fn saddles(g: &[f64; SIDE], w: &[f64; SIDE]) -> ([f64; SIDE], [bool; SIDE]) {
+    let (mut out, mut wide) = ([0.0; SIDE], [false; SIDE]);
+    for k in 0..SIDE {
+        // m0 = g exp(W(y)/2) = g sqrt(y/W(y)), y = 2w/g^2; the least y moves it by 5e-7
+        let y = (2.0 * (w[k] / g[k]) / g[k]).clamp(1e-6, 1e300);
+        let m0 = g[k] * (y / lambert_w::rough(ln(1.0 + y))).sqrt();
+        let variance = m0 / (1.0 + 2.0 * (w[k] / m0) / m0);
+        wide[k] = variance > WIDE * WIDE;
+        out[k] = saddle(g[k], w[k], m0);
+    }
+    (out, wide)
+}
+
+/// The sum as an integral over m of e^h(m), h the logarithm of the term by Stirling's formula, by Laplace's method about
+/// the saddle point to second order in 1/m [Bender1999, 6.4]; `m` is near it.
+#[inline(always)]
 fn saddle(g: f64, w: f64, m: f64) -> f64 {
     // Stirling's 1/(12 m) adds to w/m
     let v = w + 1.0 / 12.0;
     let i = 1.0 / m;
     // h', m h'' and m^2 h'''
     let (h1, h2, h3) = (
-        (g * i).ln() + i * (-1.5 + i * v),
+        ln_ratio(g, m) + i * (-1.5 + i * v),
         -1.0 + i * (1.5 - 2.0 * i * v),
         1.0 + i * (-3.0 + 6.0 * i * v),
     );
@@ -140,113 +157,87 @@ fn saddle(g: f64, w: f64, m: f64) -> f64 {
     // what the last step left of h'
     let left = h1 * s2.sqrt();
     let exponent = m * ratio + (m - g) - w * i - i / 12.0 + 0.5 * left * left;
-    exponent.exp() * i * t.sqrt() * (1.0 + first + second + 0.5 * left * a3)
+    exp::<13>(exponent) * i * t.sqrt() * (1.0 + first + second + 0.5 * left * a3)
 }
 
-/// Term by term about the largest, where the summand is narrower than the terms are apart.
-#[inline]
-fn narrow(g: f64, w: f64, m0: f64) -> f64 {
-    let centre = m0.round();
-    let peak = ln_term(g, w, centre).exp();
-    let mut sum = peak;
-    for direction in [1.0, -1.0] {
-        let mut m = centre + direction;
-        while m > 0.5 {
-            let t = ln_term(g, w, m).exp();
-            sum += t;
-            // the rest falls faster than a Gaussian there
-            if t <= NEGLIGIBLE * peak {
-                break;
-            }
-            m += direction;
-        }
+/// m and 1/m at m - 1.
+const M: [[[f64; WIDTH]; 2]; CHUNKS] = {
+    let mut table = [[[0.0; WIDTH]; 2]; CHUNKS];
+    let mut k = 0;
+    while k < WIDTH * CHUNKS {
+        let m = (k + 1) as f64;
+        table[k / WIDTH][0][k % WIDTH] = m;
+        table[k / WIDTH][1][k % WIDTH] = 1.0 / m;
+        k += 1;
     }
-    sum
-}
-
-/// ln of the term for m >= 10 by Stirling's series, which errs by 1/(1260 m^5) [Abramowitz1964, 6.1.41]; written so that
-/// large g and m do not cancel.
-#[inline]
-fn ln_term(g: f64, w: f64, m: f64) -> f64 {
-    let inv = 1.0 / m;
-    let stirling = inv * (1.0 / 12.0 - inv * inv / 360.0);
-    m * ln_ratio(g, m) + (m - g) - 0.5 * (TAU * m).ln() - stirling - m.ln() - w * inv
-}
-
-/// ln(g/m), with the digits of m close to g, where the difference is exact: they matter once it is multiplied by a
-/// million.
-#[inline]
-fn ln_ratio(g: f64, m: f64) -> f64 {
-    if g > 1e6 && (m - g).abs() < 0.1 * g {
-        -((m - g) / g).ln_1p()
-    } else {
-        (g / m).ln()
-    }
-}
+    table
+};
 
 /// ln(m! m) at m - 1.
-const LN_FACTORIAL_M: [f64; TERMS] = [
-    0.0,
-    1.3862943611198906,
-    2.8903717578961645,
-    4.564348191467836,
-    6.396929655216146,
-    8.371010681238156,
-    10.471071510120728,
-    12.684044444425085,
-    14.999052057417689,
-    17.40699766606956,
-    19.900203118672255,
-    22.472121145449886,
-    25.11711321058496,
-    27.83027851235394,
-    30.6073215849431,
-    33.44444882832045,
-    36.3382867941931,
-    39.28581696592922,
-    42.28432316636594,
-    45.331348734307475,
-    48.42466133620033,
-    51.56222380519354,
-    54.74216978369353,
-    57.96278322846027,
-    61.222481047848724,
-    64.51979829902348,
-    67.85337549301066,
-    71.22194764735674,
-    74.62433479715449,
-    78.05943373049232,
-    81.52621075780046,
-    85.02369535891476,
-    88.550974579048,
-    92.10718806681383,
-    95.6915236651765,
-    99.30321348059931,
-    102.94153036743165,
-    106.60578477424019,
-    110.29532190677311,
-    114.00951916887134,
-    117.74778384816601,
-    121.50955101802845,
-    125.2942816311322,
-    129.10146078327514,
-    132.93059612889755,
-    136.7812164321054,
-    140.65287023903642,
-    144.54512465914215,
-    148.4575642444555,
-    152.3897899572012,
-    156.34141821722164,
-    160.31208002166022,
-    164.30142013018303,
-    168.3090963097594,
-    172.33477863366014,
-    176.37814882989795,
+const LN_FACTORIAL_M: [[f64; WIDTH]; CHUNKS] = [
+    [
+        0.0,
+        1.3862943611198906,
+        2.8903717578961645,
+        4.564348191467836,
+        6.396929655216146,
+        8.371010681238156,
+        10.471071510120728,
+        12.684044444425085,
+        14.999052057417689,
+        17.40699766606956,
+        19.900203118672255,
+        22.472121145449886,
+        25.11711321058496,
+        27.83027851235394,
+        30.6073215849431,
+        33.44444882832045,
+    ],
+    [
+        36.3382867941931,
+        39.28581696592922,
+        42.28432316636594,
+        45.331348734307475,
+        48.42466133620033,
+        51.56222380519354,
+        54.74216978369353,
+        57.96278322846027,
+        61.222481047848724,
+        64.51979829902348,
+        67.85337549301066,
+        71.22194764735674,
+        74.62433479715449,
+        78.05943373049232,
+        81.52621075780046,
+        85.02369535891476,
+    ],
+    [
+        88.550974579048,
+        92.10718806681383,
+        95.6915236651765,
+        99.30321348059931,
+        102.94153036743165,
+        106.60578477424019,
+        110.29532190677311,
+        114.00951916887134,
+        117.74778384816601,
+        121.50955101802845,
+        125.2942816311322,
+        129.10146078327514,
+        132.93059612889755,
+        136.7812164321054,
+        140.65287023903642,
+        144.54512465914215,
+    ],
 ];
 
 #[cfg(test)]
 mod tests {
-    use super::{FROM_SADDLE, series};
+    use super::{FROM_SADDLE, SIDE};
+
+    fn series(g: f64, w: f64) -> f64 {
+        super::series(&[g; SIDE], &[w; SIDE])[0]
+    }
 
     /// ln of the sum, term by term over all that matter, for a reference with an error of 1e-9.
     ///
