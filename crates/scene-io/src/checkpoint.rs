@@ -179,9 +179,10 @@ impl Opened {
             );
             return Err(Error::invalid(message));
         }
-        for index in 0..film.tiles().len() {
+        let counts: Vec<usize> = film.tiles().map(|t| t.sums().len()).collect();
+        for (index, count) in counts.into_iter().enumerate() {
             let done = reader.number()?;
-            let values = reader.take(film.tiles()[index].sums().len() * N * 8)?;
+            let values = reader.take(count * N * 8)?;
             let sums: Vec<[f64; N]> = (values.as_chunks().0.as_chunks::<N>().0.iter())
                 .map(|pixel| pixel.map(f64::from_le_bytes))
                 .collect();

@@ -4,25 +4,15 @@
 //! light, one virtual call to evaluate and one to sample, shadow rays; new rays, dense again. Light is collected in
 //! one slot a path and added to the film in the order of the slots, whatever the paths' order became.
 
-use crate::film::Tile;
+use crate::film::TileMut;
 use crate::kernel::{Kernel, SHINES};
-use crate::light::LightLanes;
 use crate::math::{F, U, splat3};
 use crate::mode::{Develop, Mode};
-use crate::path::{HitLanes, NONE, PathState, Paths, Shadows};
+use crate::path::{NONE, PathState};
 use crate::ris;
-use crate::stats::Stats;
-use crate::vertex::VertexLanes;
-use brdf::{EvalPacket, LANES, Lanes3, SamplePacket, Tag};
+use crate::workspace::{BLOCKS, WAITING, Workspace};
+use brdf::{LANES, Lanes3, Tag};
 use std::time::Instant;
-
-/// Blocks of vertices a material is handed at once: few enough to stay in the first-level cache, enough to make the
-/// virtual call free.
-const BLOCKS: usize = 16;
-
-/// Shadow rays that wait to be traced together: what they carry is still in the first-level cache then, in many channels in
-/// the second.
-const WAITING: usize = 2 * BLOCKS * LANES;
 
 /// A path this weak ends: its products would be denormal. What a shadow ray carries is light, of any strength.
 const FAINT: f32 = 1e-30;
@@ -40,14 +30,16 @@ pub(crate) struct Samples {
 /// A batch to be compiled for each instruction set and run with the widest there is.
 ///
 /// Everything down to the materials' virtual calls is inlined into it; results are the same bits, since no step is fused.
-pub(crate) struct Batch<'a, 'k, const N: usize, const M: usize, S: Mode<N>> {
+pub(crate) struct Batch<'a, 'k, 't, const N: usize, const M: usize, S: Mode<N>> {
     pub(crate) workspace: &'a mut Workspace<N, S>,
     pub(crate) kernel: &'a Kernel<'k, N, S>,
-    pub(crate) tile: &'a mut Tile<M>,
+    pub(crate) tile: &'a mut TileMut<'t, M>,
     pub(crate) samples: Samples,
 }
 
-impl<const N: usize, const M: usize, S: Develop<N, M>> pulp::WithSimd for Batch<'_, '_, N, M, S> {
+impl<const N: usize, const M: usize, S: Develop<N, M>> pulp::WithSimd
+    for Batch<'_, '_, '_, N, M, S>
+{
     type Output = ();
 
     #[inline(always)]
@@ -56,81 +48,13 @@ impl<const N: usize, const M: usize, S: Develop<N, M>> pulp::WithSimd for Batch<
     }
 }
 
-/// Buffers of one worker, reused for all its batches.
-#[derive(Debug)]
-pub(crate) struct Workspace<const N: usize, S: Mode<N>> {
-    paths: Paths<N>,
-    next: Paths<N>,
-    hits: Vec<HitLanes>,
-    shadows: Shadows<N>,
-    /// Paths sorted by material, and where each material's part ends.
-    order: Vec<u32>,
-    bucket: Vec<u32>,
-    ends: Vec<usize>,
-    /// Paths that met a light.
-    met: Vec<u32>,
-    vertices: Vec<VertexLanes<N>>,
-    /// Points on lights and their evaluations: for each block of vertices as many as there are candidates.
-    lights: Vec<LightLanes<N>>,
-    evals: Vec<EvalPacket<N, S::Tag>>,
-    samples: Vec<SamplePacket<N, S::Tag>>,
-    /// Light collected in each slot.
-    slots: Vec<[f32; N]>,
-    /// What the channels of each slot are.
-    tag: Vec<S::Tag>,
-    /// Points of each slot: stream, and index in the stream.
-    stream: Vec<u32>,
-    index: Vec<u32>,
-    /// Upper left corner of each slot's pixel.
-    corner: [Vec<f32>; 2],
-    pub(crate) stats: Stats,
-}
-
 impl<const N: usize, S: Mode<N>> Workspace<N, S> {
-    /// Room for `capacity` paths, `materials` materials and `candidates` points on lights a vertex.
-    pub(crate) fn new(capacity: usize, materials: usize, candidates: usize) -> Self {
-        let capacity = capacity.next_multiple_of(LANES);
-        Self {
-            paths: Paths::new(capacity),
-            next: Paths::new(capacity),
-            hits: vec![HitLanes::EMPTY; capacity.div_ceil(LANES)],
-            shadows: Shadows::new(WAITING),
-            order: vec![0; capacity],
-            bucket: vec![0; capacity],
-            ends: vec![0; materials + 1],
-            met: vec![0; capacity],
-            vertices: vec![VertexLanes::EMPTY; BLOCKS],
-            lights: vec![LightLanes::EMPTY; BLOCKS * candidates],
-            evals: vec![EvalPacket::ZERO; BLOCKS * candidates],
-            samples: vec![SamplePacket::ZERO; BLOCKS],
-            slots: vec![[0.0; N]; capacity],
-            tag: vec![S::Tag::FIRST; capacity],
-            stream: vec![0; capacity],
-            index: vec![0; capacity],
-            corner: [vec![0.0; capacity], vec![0.0; capacity]],
-            stats: Stats::default(),
-        }
-    }
-
-    /// What all this takes.
-    pub(crate) fn bytes(&self) -> usize {
-        let paths = self.paths.bytes() + self.next.bytes() + self.shadows.bytes();
-        let blocks = size_of_val(&self.hits[..])
-            + size_of_val(&self.vertices[..])
-            + size_of_val(&self.lights[..])
-            + size_of_val(&self.evals[..])
-            + size_of_val(&self.samples[..]);
-        // order, bucket, met, stream, index and two coordinates a slot
-        let slots = size_of_val(&self.slots[..]) + size_of_val(&self.tag[..]);
-        paths + blocks + slots + 7 * size_of_val(&self.order[..])
-    }
-
     /// Traces the samples of every pixel of `tile` and adds them to it.
     #[inline(always)]
     fn run<const M: usize>(
         &mut self,
         kernel: &Kernel<'_, N, S>,
-        tile: &mut Tile<M>,
+        tile: &mut TileMut<'_, M>,
         samples: Samples,
     ) where
         S: Develop<N, M>,
@@ -192,26 +116,16 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
     fn start<const M: usize>(
         &mut self,
         kernel: &Kernel<'_, N, S>,
-        tile: &Tile<M>,
+        tile: &TileMut<'_, M>,
         samples: Samples,
     ) {
-        let replicates = kernel.replicates;
-        let mut slot = 0;
-        for sample in samples.first..samples.first + samples.count {
-            for (x, y) in tile.pixels() {
-                (self.corner[0][slot], self.corner[1][slot]) = (x as f32, y as f32);
-                // wraps for pictures of 2^32 / replicates pixels and more, whose ends then share scrambles
-                self.stream[slot] = (y.wrapping_mul(kernel.width).wrapping_add(x))
-                    .wrapping_mul(replicates)
-                    .wrapping_add(sample % replicates);
-                self.index[slot] = sample / replicates;
-                let tag = kernel.tag(self.stream[slot], self.index[slot]);
-                tag.put(&mut self.tag, slot);
-                slot += 1;
-            }
-        }
+        self.place(kernel, tile, samples);
+        let slot = self.paths.len;
         self.slots[..slot].fill([0.0; N]);
-        self.paths.len = slot;
+        for slot in 0..slot {
+            let tag = kernel.tag(self.stream[slot], self.index[slot]);
+            tag.put(&mut self.tag, slot);
+        }
         for block in 0..self.paths.blocks() {
             let lanes = block * LANES..(block + 1) * LANES;
             let stream = lanes_of(&self.stream[lanes.clone()]);
@@ -234,6 +148,38 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
         }
         self.paths.seal();
         self.stats.paths += self.paths.len as u64;
+    }
+
+    /// Pixels and points of all slots; their number is that of the paths.
+    #[inline(always)]
+    fn place<const M: usize>(
+        &mut self,
+        kernel: &Kernel<'_, N, S>,
+        tile: &TileMut<'_, M>,
+        samples: Samples,
+    ) {
+        let replicates = kernel.replicates;
+        let pixels = tile.pixels().len();
+        for (slot, (x, y)) in tile.pixels().enumerate() {
+            (self.corner[0][slot], self.corner[1][slot]) = (x as f32, y as f32);
+            // wraps for pictures of 2^32 / replicates pixels and more, whose ends then share scrambles
+            self.stream[slot] =
+                (y.wrapping_mul(kernel.width).wrapping_add(x)).wrapping_mul(replicates);
+        }
+        // the first sample last: the others are made of its slots
+        for i in (0..samples.count).rev() {
+            let sample = samples.first + i;
+            let first = i as usize * pixels;
+            for corner in &mut self.corner {
+                corner.copy_within(..pixels, first);
+            }
+            self.stream.copy_within(..pixels, first);
+            for stream in &mut self.stream[first..first + pixels] {
+                *stream = stream.wrapping_add(sample % replicates);
+            }
+            self.index[first..first + pixels].fill(sample / replicates);
+        }
+        self.paths.len = samples.count as usize * pixels;
     }
 
     /// Adds the light that rays met, and sorts the paths that go on by material (counting sort).
@@ -566,7 +512,7 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
 
     /// Adds the slots to the tile, in their order.
     #[inline(always)]
-    fn finish<const M: usize>(&self, mode: &S, tile: &mut Tile<M>, samples: Samples)
+    fn finish<const M: usize>(&self, mode: &S, tile: &mut TileMut<'_, M>, samples: Samples)
     where
         S: Develop<N, M>,
     {
@@ -578,7 +524,7 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
                 light.map(|(k, light)| mode.develop(S::Tag::of(&self.tag, first + k), light));
             tile.add(sample, light);
         }
-        tile.done = samples.first + samples.count;
+        tile.finish(samples.first + samples.count);
     }
 }
 

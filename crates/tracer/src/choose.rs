@@ -2,15 +2,20 @@
 
 use crate::film::Film;
 use crate::kernel::CANDIDATES;
-use crate::mode::Develop;
-use crate::render::{RenderError, render};
+use crate::mode::{Develop, Mode};
+use crate::render::{RenderError, in_pool, render};
 use crate::scene::Scene;
 use crate::settings::{Settings, Shard, Strategy};
+use crate::stats::Stats;
 
-/// Longest side of the pilot picture, its samples a pixel, and its replicates.
+/// Longest side of the pilot picture, and its replicates.
 const SIDE: u32 = 48;
-const SPP: u32 = 32;
 const REPLICATES: u32 = 8;
+/// Samples a pixel of its first look, and the most it takes where two looks leave the choice open.
+const FIRST: u32 = 8;
+const MOST: u32 = 32;
+/// Of the intervals that must not meet for a choice before that.
+const CONFIDENCE: f64 = 0.95;
 /// Seed of the pilot: any other than the picture's.
 const SALT: u64 = 0x7069_6c6f_7421_0001;
 /// What a point on a light and its evaluation cost, in rays: 1.2 with brass, 1.7 with blue rubber on the benchmark scene
@@ -24,6 +29,8 @@ pub struct Trial {
     pub strategy: Strategy,
     /// Relative RMSE of the pilot picture.
     pub rel_rmse: f64,
+    /// Its 95 % interval.
+    pub rel_rmse_ci: [f64; 2],
     /// Work of the pilot: rays, and points on lights in rays.
     pub work: f64,
 }
@@ -34,11 +41,15 @@ impl Trial {
     pub fn cost(&self) -> f64 {
         self.rel_rmse * self.rel_rmse * self.work
     }
+
+    fn cost_ci(&self) -> [f64; 2] {
+        self.rel_rmse_ci.map(|error| error * error * self.work)
+    }
 }
 
 /// The better of plain MIS and resampling for this scene, and what both did in a pilot of at most 48 x 48 pixels.
 ///
-/// Work is counted, not timed, and the seed follows from that of `settings`: the choice is the same on every machine
+/// The pilot ends as soon as it is clear which is better, after 8 to 32 samples a pixel. Work is counted, not timed, and the seed follows from that of `settings`: the choice is the same on every machine
 /// and for any number of threads.
 ///
 /// # Errors
@@ -50,28 +61,61 @@ pub fn choose_strategy<const N: usize, const M: usize, S: Develop<N, M>>(
 ) -> Result<(Strategy, [Trial; 2]), RenderError> {
     let longest = size.0.max(size.1).max(SIDE);
     let side = |n: u32| (u64::from(n) * u64::from(SIDE) / u64::from(longest)).max(1) as u32;
-    let trial = |strategy, candidates: usize| -> Result<Trial, RenderError> {
-        let mut film = Film::<M>::new(side(size.0), side(size.1), REPLICATES);
-        let settings = Settings {
-            strategy,
-            spp: SPP,
-            seed: settings.seed ^ SALT,
-            shard: None::<Shard>,
-            ..settings.clone()
+    in_pool(settings, |settings| {
+        let pilot = |strategy, candidates| Pilot {
+            scene,
+            settings: Settings {
+                strategy,
+                seed: settings.seed ^ SALT,
+                shard: None::<Shard>,
+                ..settings.clone()
+            },
+            film: Film::<M>::new(side(size.0), side(size.1), REPLICATES),
+            candidates,
+            stats: Stats::default(),
         };
-        let stats = render(scene, &settings, &mut film, &())?;
-        let points = stats.vertices as f64 * candidates as f64;
+        let (mut mis, mut ris) = (pilot(Strategy::Mis, 1), pilot(Strategy::Ris, CANDIDATES));
+        let mut spp = FIRST;
+        loop {
+            let (a, b) = rayon::join(|| mis.until(spp), || ris.until(spp));
+            let trials = [a?, b?];
+            if spp >= MOST || apart(&trials) {
+                let better = usize::from(trials[1].cost() < trials[0].cost());
+                return Ok((trials[better].strategy, trials));
+            }
+            spp *= 2;
+        }
+    })
+}
+
+/// Whether it is known which is better: the intervals of both costs do not meet.
+fn apart([a, b]: &[Trial; 2]) -> bool {
+    let (a, b) = (a.cost_ci(), b.cost_ci());
+    a[1] < b[0] || b[1] < a[0]
+}
+
+/// One strategy being tried.
+struct Pilot<'a, const N: usize, const M: usize, S: Mode<N>> {
+    scene: &'a Scene<N, S>,
+    settings: Settings,
+    film: Film<M>,
+    candidates: usize,
+    stats: Stats,
+}
+
+impl<const N: usize, const M: usize, S: Develop<N, M>> Pilot<'_, N, M, S> {
+    /// Goes on to `spp` samples a pixel.
+    fn until(&mut self, spp: u32) -> Result<Trial, RenderError> {
+        self.settings.spp = spp;
+        self.stats += render(self.scene, &self.settings, &mut self.film, &())?;
+        let stats = &self.stats;
+        let points = stats.vertices as f64 * self.candidates as f64;
+        let estimate = self.film.estimate(CONFIDENCE);
         Ok(Trial {
-            strategy,
-            rel_rmse: film.estimate(0.95).rel_rmse,
+            strategy: self.settings.strategy,
+            rel_rmse: estimate.rel_rmse,
+            rel_rmse_ci: estimate.rel_rmse_ci,
             work: stats.closest_rays as f64 + stats.shadow_rays as f64 + CANDIDATE_COST * points,
         })
-    };
-    let trials = [trial(Strategy::Mis, 1)?, trial(Strategy::Ris, CANDIDATES)?];
-    let better = if trials[1].cost() < trials[0].cost() {
-        trials[1].strategy
-    } else {
-        trials[0].strategy
-    };
-    Ok((better, trials))
+    }
 }

@@ -2,7 +2,6 @@
 
 use crate::film::{Counts, Film, Tile};
 use crate::interval::{Pairs, ratio_interval};
-use rayon::prelude::*;
 
 /// The error a picture knows of itself.
 ///
@@ -37,8 +36,8 @@ impl<const N: usize> Film<N> {
     /// The error of the picture; `confidence` in (0, 1) is that of the intervals.
     #[must_use]
     pub fn estimate(&self, confidence: f64) -> Estimate {
-        // in parallel by tile, then tile after tile: the same bits whatever the threads
-        let tiles: Vec<Sums> = self.tiles.par_iter().map(Sums::of).collect();
+        // each tile by itself, then tile after tile: the same bits whatever the threads
+        let tiles = self.seen();
         let Sums {
             square,
             error,
@@ -99,7 +98,8 @@ impl<const N: usize> Moments<N> {
 
 /// What is summed over pixels: squares of means, their variances, and what these vary by unless some pixel has too few
 /// replicates to tell.
-struct Sums {
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sums {
     square: f64,
     error: f64,
     pairs: Option<Pairs>,
@@ -119,7 +119,7 @@ impl Default for Sums {
 const WIDE: usize = 8;
 
 /// The sums of a tile, to be compiled for each instruction set.
-struct OfTile<'a, const N: usize>(&'a Tile<N>);
+struct OfTile<'a, const N: usize>(Tile<'a, N>);
 
 impl<const N: usize> pulp::WithSimd for OfTile<'_, N> {
     type Output = Sums;
@@ -131,12 +131,12 @@ impl<const N: usize> pulp::WithSimd for OfTile<'_, N> {
 }
 
 impl Sums {
-    fn of<const N: usize>(tile: &Tile<N>) -> Self {
+    pub(crate) fn of<const N: usize>(tile: Tile<'_, N>) -> Self {
         brdf::arch().dispatch(OfTile(tile))
     }
 
     #[inline(always)]
-    fn of_tile<const N: usize>(tile: &Tile<N>) -> Self {
+    fn of_tile<const N: usize>(tile: Tile<'_, N>) -> Self {
         let counts = tile.counts();
         let degrees = counts.used.len() as f64 - 1.0;
         let (inverse, scale) = (

@@ -1,5 +1,7 @@
 //! The film: sums per pixel and replicate, tile by tile.
 
+use crate::estimate::Sums;
+use brdf::Pages;
 use rayon::prelude::*;
 
 /// Edge of a tile in pixels.
@@ -9,25 +11,53 @@ pub(crate) const TILE: u32 = 16;
 ///
 /// Sample `s` of a pixel belongs to replicate `s % replicates`. Replicates are independent scrambles of the points,
 /// so their spread tells the error of the picture. Sums are f64: added one by one, they are the same bits wherever a
-/// render was interrupted. Size: `8 * N * replicates` bytes a pixel.
+/// render was interrupted. Size: `8 * N * replicates` bytes a pixel, in huge pages.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Film<const N: usize> {
     width: u32,
     height: u32,
     replicates: u32,
-    pub(crate) tiles: Vec<Tile<N>>,
+    squares: Vec<Square>,
+    /// Of all squares, one after the other: by pixel (row after row of the square), then by replicate, then by channel.
+    sums: Pages<f64>,
 }
 
-/// A square of the film.
+/// Where a tile lies, and how far it is.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Tile<const N: usize> {
+struct Square {
     x: u32,
     y: u32,
     width: u32,
     height: u32,
     replicates: u32,
-    pub(crate) done: u32,
-    sums: Vec<[f64; N]>,
+    done: u32,
+    /// Of its first sum.
+    first: usize,
+    seen: Seen,
+}
+
+/// What was found in a tile's sums while they were in the cache.
+#[derive(Clone, Debug, Default)]
+struct Seen(Option<Sums>);
+
+impl PartialEq for Seen {
+    /// It follows from the sums.
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+/// A square of the film.
+#[derive(Clone, Copy, Debug)]
+pub struct Tile<'a, const N: usize> {
+    square: &'a Square,
+    sums: &'a [[f64; N]],
+}
+
+/// A square of the film on which samples are put.
+pub(crate) struct TileMut<'a, const N: usize> {
+    square: &'a mut Square,
+    sums: &'a mut [[f64; N]],
 }
 
 /// How many samples a pixel each replicate holds.
@@ -72,26 +102,29 @@ impl<const N: usize> Film<N> {
     #[must_use]
     pub fn new(width: u32, height: u32, replicates: u32) -> Self {
         let (width, height, replicates) = (width.max(1), height.max(1), replicates.max(1));
-        let mut tiles = Vec::new();
+        let (mut squares, mut first) = (Vec::new(), 0);
         for y in (0..height).step_by(TILE as usize) {
             for x in (0..width).step_by(TILE as usize) {
-                let (w, h) = (TILE.min(width - x), TILE.min(height - y));
-                tiles.push(Tile {
+                let square = Square {
                     x,
                     y,
-                    width: w,
-                    height: h,
+                    width: TILE.min(width - x),
+                    height: TILE.min(height - y),
                     replicates,
                     done: 0,
-                    sums: vec![[0.0; N]; (w * h * replicates) as usize],
-                });
+                    first,
+                    seen: Seen(None),
+                };
+                first += square.sums();
+                squares.push(square);
             }
         }
         Self {
             width,
             height,
             replicates,
-            tiles,
+            squares,
+            sums: Pages::zeroed(first * N),
         }
     }
 
@@ -110,7 +143,7 @@ impl<const N: usize> Film<N> {
     /// Bytes of its sums: `8 * N * replicates` a pixel.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.tiles.iter().map(|t| size_of_val(&t.sums[..])).sum()
+        size_of_val(&*self.sums)
     }
 
     /// Independent scrambles.
@@ -120,9 +153,33 @@ impl<const N: usize> Film<N> {
     }
 
     /// The tiles, row after row: all the state there is.
-    #[must_use]
-    pub fn tiles(&self) -> &[Tile<N>] {
-        &self.tiles
+    pub fn tiles(&self) -> impl ExactSizeIterator<Item = Tile<'_, N>> {
+        self.squares.iter().map(|square| self.tile(square))
+    }
+
+    fn tile<'a>(&'a self, square: &'a Square) -> Tile<'a, N> {
+        let (sums, _) = self.sums.as_chunks::<N>();
+        Tile {
+            square,
+            sums: &sums[square.first..square.first + square.sums()],
+        }
+    }
+
+    /// The tiles, to put samples on.
+    pub(crate) fn tiles_mut(&mut self) -> Vec<TileMut<'_, N>> {
+        let (mut rest, _) = self.sums.as_chunks_mut::<N>();
+        let tiles = self.squares.iter_mut().map(|square| {
+            let (sums, later) = std::mem::take(&mut rest).split_at_mut(square.sums());
+            rest = later;
+            TileMut { square, sums }
+        });
+        tiles.collect()
+    }
+
+    /// What the estimate needs of each tile, from the tile itself where it was not seen before.
+    pub(crate) fn seen(&self) -> Vec<Sums> {
+        let of = |square: &Square| (square.seen.0).unwrap_or_else(|| Sums::of(self.tile(square)));
+        self.squares.par_iter().map(of).collect()
     }
 
     /// Puts back the state of tile `index` that [`Tile::done`] and [`Tile::sums`] once gave.
@@ -135,11 +192,12 @@ impl<const N: usize> Film<N> {
         done: u32,
         sums: &[[f64; N]],
     ) -> Result<(), RestoreError> {
-        let expected = self.tiles.get(index).map_or(0, |t| t.sums.len());
-        match self.tiles.get_mut(index) {
-            Some(tile) if expected == sums.len() => {
-                tile.done = done;
-                tile.sums.copy_from_slice(sums);
+        let expected = self.squares.get(index).map_or(0, Square::sums);
+        match self.squares.get_mut(index) {
+            Some(square) if expected == sums.len() => {
+                (square.done, square.seen) = (done, Seen(None));
+                let (all, _) = self.sums.as_chunks_mut::<N>();
+                all[square.first..square.first + expected].copy_from_slice(sums);
                 Ok(())
             }
             _ => Err(RestoreError {
@@ -153,13 +211,13 @@ impl<const N: usize> Film<N> {
     /// Samples a pixel that every tile has.
     #[must_use]
     pub fn spp(&self) -> u32 {
-        self.tiles.iter().map(|t| t.done).min().unwrap_or(0)
+        self.squares.iter().map(|t| t.done).min().unwrap_or(0)
     }
 
     /// Samples in all.
     #[must_use]
     pub fn samples(&self) -> u64 {
-        self.tiles
+        self.squares
             .iter()
             .map(|t| u64::from(t.done) * u64::from(t.width * t.height))
             .sum()
@@ -184,30 +242,19 @@ impl<const N: usize> Film<N> {
     /// Linear, so that every replicate is what it would have been, had it been recorded in those channels.
     #[must_use]
     pub fn mapped<const M: usize>(&self, rows: &[[f64; M]; N]) -> Film<M> {
-        let map = |sum: &[f64; N]| {
-            let mut out = [0.0; M];
-            for (value, row) in sum.iter().zip(rows) {
-                for (o, weight) in out.iter_mut().zip(row) {
-                    *o += value * weight;
+        let mut film = Film::new(self.width, self.height, self.replicates);
+        let to = film.tiles_mut().into_par_iter();
+        to.zip(&self.squares).for_each(|(to, from)| {
+            to.square.done = from.done;
+            for (out, sum) in to.sums.iter_mut().zip(self.tile(from).sums) {
+                for (value, row) in sum.iter().zip(rows) {
+                    for (o, weight) in out.iter_mut().zip(row) {
+                        *o += value * weight;
+                    }
                 }
             }
-            out
-        };
-        let tile = |t: &Tile<N>| Tile {
-            x: t.x,
-            y: t.y,
-            width: t.width,
-            height: t.height,
-            replicates: t.replicates,
-            done: t.done,
-            sums: t.sums.iter().map(map).collect(),
-        };
-        Film {
-            width: self.width,
-            height: self.height,
-            replicates: self.replicates,
-            tiles: self.tiles.par_iter().map(tile).collect(),
-        }
+        });
+        film
     }
 
     /// One value a pixel, row after row, from the samples of replicates and their sums; rows of tiles in parallel.
@@ -219,9 +266,9 @@ impl<const N: usize> Film<N> {
         let width = self.width as usize;
         let mut out = vec![empty; width * self.height as usize];
         let bands = out.par_chunks_mut(width * TILE as usize);
-        let tiles = self.tiles.par_chunks(width.div_ceil(TILE as usize));
-        bands.zip(tiles).for_each(|(band, tiles)| {
-            for tile in tiles {
+        let rows = self.squares.par_chunks(width.div_ceil(TILE as usize));
+        bands.zip(rows).for_each(|(band, squares)| {
+            for tile in squares.iter().map(|square| self.tile(square)) {
                 let counts = tile.counts();
                 for ((x, y), sums) in tile.pixels().zip(tile.by_pixel()) {
                     band[(y % TILE) as usize * width + x as usize] = f(&counts, sums);
@@ -232,55 +279,95 @@ impl<const N: usize> Film<N> {
     }
 }
 
-impl<const N: usize> Tile<N> {
+impl Square {
+    /// How many sums it has.
+    fn sums(&self) -> usize {
+        (self.width * self.height * self.replicates) as usize
+    }
+
+    fn pixels(&self) -> impl ExactSizeIterator<Item = (u32, u32)> + use<> {
+        let (x, y, width) = (self.x, self.y, self.width);
+        (0..self.width * self.height).map(move |i| (x + i % width, y + i / width))
+    }
+
+    fn samples_of(&self, r: u32) -> u32 {
+        (self.done + self.replicates - 1 - r.min(self.replicates - 1)) / self.replicates
+    }
+}
+
+impl<'a, const N: usize> Tile<'a, N> {
     /// Samples a pixel it holds.
     #[must_use]
     pub fn done(&self) -> u32 {
-        self.done
+        self.square.done
     }
 
     /// Sums by pixel (row after row of the tile), then by replicate.
     #[must_use]
-    pub fn sums(&self) -> &[[f64; N]] {
-        &self.sums
+    pub fn sums(&self) -> &'a [[f64; N]] {
+        self.sums
     }
 
     pub(crate) fn replicates(&self) -> u32 {
-        self.replicates
+        self.square.replicates
     }
 
     /// How many samples a pixel replicate `r` holds.
     #[must_use]
     pub fn samples_of(&self, r: u32) -> u32 {
-        (self.done + self.replicates - 1 - r.min(self.replicates - 1)) / self.replicates
+        self.square.samples_of(r)
     }
 
     /// The samples of its replicates.
     pub(crate) fn counts(&self) -> Counts {
-        Counts::new((0..self.replicates).map(|r| self.samples_of(r)))
+        Counts::new((0..self.square.replicates).map(|r| self.samples_of(r)))
     }
 
     /// The sums of each pixel by replicate.
-    pub(crate) fn by_pixel(&self) -> impl Iterator<Item = &[[f64; N]]> {
-        self.sums.chunks_exact(self.replicates as usize)
+    pub(crate) fn by_pixel(&self) -> impl Iterator<Item = &'a [[f64; N]]> {
+        self.sums.chunks_exact(self.square.replicates as usize)
     }
 
     /// Coordinates of its pixels in the picture, row after row.
     pub fn pixels(&self) -> impl ExactSizeIterator<Item = (u32, u32)> + use<N> {
-        let (x, y, width) = (self.x, self.y, self.width);
-        (0..self.width * self.height).map(move |i| (x + i % width, y + i / width))
+        self.square.pixels()
+    }
+}
+
+impl<const N: usize> TileMut<'_, N> {
+    /// Samples a pixel it holds.
+    pub(crate) fn done(&self) -> u32 {
+        self.square.done
+    }
+
+    /// Coordinates of its pixels in the picture, row after row.
+    pub(crate) fn pixels(&self) -> impl ExactSizeIterator<Item = (u32, u32)> + use<N> {
+        self.square.pixels()
     }
 
     /// Adds sample number `sample` of every pixel.
     pub(crate) fn add(&mut self, sample: u32, light: impl Iterator<Item = [f32; N]>) {
-        let (replicates, r) = (
-            self.replicates as usize,
-            (sample % self.replicates) as usize,
-        );
+        let replicates = self.square.replicates as usize;
+        let r = (sample % self.square.replicates) as usize;
         for (sums, light) in self.sums.chunks_exact_mut(replicates).zip(light) {
             for c in 0..N {
                 sums[r][c] += f64::from(light[c]);
             }
         }
+    }
+
+    /// All samples before number `done` have been added.
+    pub(crate) fn finish(&mut self, done: u32) {
+        (self.square.done, self.square.seen) = (done, Seen(None));
+    }
+
+    /// Looks at the sums while they are in the cache.
+    pub(crate) fn see(&mut self) {
+        let tile = Tile {
+            square: self.square,
+            sums: self.sums,
+        };
+        let seen = Sums::of(tile);
+        self.square.seen = Seen(Some(seen));
     }
 }

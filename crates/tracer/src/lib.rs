@@ -39,6 +39,7 @@ mod shape;
 mod stats;
 mod stopping;
 mod vertex;
+mod workspace;
 
 pub use camera::Camera;
 pub use cast::{Ray, RayHit};

@@ -1,12 +1,13 @@
 //! Passes over the picture, tile by tile.
 
-use crate::batch::{Batch, Samples, Workspace};
-use crate::film::{Film, TILE, Tile};
+use crate::batch::{Batch, Samples};
+use crate::film::{Film, TILE, TileMut};
 use crate::kernel::Kernel;
 use crate::mode::Develop;
 use crate::scene::Scene;
 use crate::settings::Settings;
 use crate::stats::Stats;
+use crate::workspace::Workspace;
 use rayon::prelude::*;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
@@ -26,6 +27,11 @@ pub trait Progress<const N: usize>: Sync {
     /// Told after each tile how many paths it took.
     fn tile_done(&self, paths: u64) {
         let _ = paths;
+    }
+
+    /// Whether [`Self::pass_done`] asks the film for its estimate: tiles are then looked at while they are in the cache.
+    fn estimates(&self) -> bool {
+        true
     }
 
     /// Told after each pass over the picture; may end the render.
@@ -63,15 +69,27 @@ pub fn render<const N: usize, const M: usize, S: Develop<N, M>>(
     film: &mut Film<M>,
     progress: &dyn Progress<M>,
 ) -> Result<Stats, RenderError> {
-    match settings.threads {
-        None => Ok(passes(scene, settings, film, progress)),
-        Some(threads) => {
-            let pool = rayon::ThreadPoolBuilder::new()
-                .num_threads(threads.get())
-                .build()?;
-            Ok(pool.install(|| passes(scene, settings, film, progress)))
-        }
-    }
+    in_pool(settings, |settings| {
+        Ok(passes(scene, settings, film, progress))
+    })
+}
+
+/// Runs `f` on the threads that `settings` ask for; those it is given ask for the same.
+pub(crate) fn in_pool<T: Send>(
+    settings: &Settings,
+    f: impl FnOnce(&Settings) -> Result<T, RenderError> + Send,
+) -> Result<T, RenderError> {
+    let Some(threads) = settings.threads else {
+        return f(settings);
+    };
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads.get())
+        .build()?;
+    let inside = Settings {
+        threads: None,
+        ..settings.clone()
+    };
+    pool.install(|| f(&inside))
 }
 
 fn passes<const N: usize, const M: usize, S: Develop<N, M>>(
@@ -91,11 +109,10 @@ fn passes<const N: usize, const M: usize, S: Develop<N, M>>(
     loop {
         let aim = target.min(settings.spp);
         if film.spp() < aim {
-            film.tiles
-                .par_iter_mut()
+            (film.tiles_mut().into_par_iter())
                 .enumerate()
                 .filter(|(i, _)| settings.shard.is_none_or(|s| s.has(*i)))
-                .for_each(|(_, tile)| run_tile(&kernel, &pool, tile, aim, progress));
+                .for_each(|(_, tile)| run_tile(&kernel, &pool, tile, (aim, progress)));
             if progress.cancelled() || progress.pass_done(film).is_break() {
                 break;
             }
@@ -118,9 +135,8 @@ fn passes<const N: usize, const M: usize, S: Develop<N, M>>(
 fn run_tile<const N: usize, const M: usize, S: Develop<N, M>>(
     kernel: &Kernel<'_, N, S>,
     pool: &Mutex<Vec<Workspace<N, S>>>,
-    tile: &mut Tile<M>,
-    aim: u32,
-    progress: &dyn Progress<M>,
+    mut tile: TileMut<'_, M>,
+    (aim, progress): (u32, &dyn Progress<M>),
 ) {
     let take = || pool.lock().ok()?.pop();
     let mut workspace = take().unwrap_or_else(|| {
@@ -131,17 +147,20 @@ fn run_tile<const N: usize, const M: usize, S: Develop<N, M>>(
         )
     });
     let before = workspace.stats.paths;
-    while tile.done < aim && !progress.cancelled() {
+    while tile.done() < aim && !progress.cancelled() {
         let samples = Samples {
-            first: tile.done,
-            count: SAMPLES.min(aim - tile.done),
+            first: tile.done(),
+            count: SAMPLES.min(aim - tile.done()),
         };
         kernel.arch.dispatch(Batch {
             workspace: &mut workspace,
             kernel,
-            tile,
+            tile: &mut tile,
             samples,
         });
+    }
+    if progress.estimates() {
+        tile.see();
     }
     progress.tile_done(workspace.stats.paths - before);
     if let Ok(mut pool) = pool.lock() {

@@ -310,7 +310,7 @@ fn mode_of(basis: &Basis) -> Option<&'static str> {
 }
 
 fn take<const N: usize>(to: &mut Film<N>, from: &Film<N>, shard: Shard) -> Result<(), Error> {
-    let mine = from.tiles().iter().enumerate();
+    let mine = from.tiles().enumerate();
     for (index, tile) in mine.filter(|(index, _)| shard.has(*index)) {
         to.restore(index, tile.done(), tile.sums())
             .map_err(|e| Error::invalid(e.to_string()))?;
@@ -331,6 +331,10 @@ impl<const N: usize> Progress<N> for Developed<'_, N> {
 
     fn tile_done(&self, paths: u64) {
         self.inner.tile_done(paths);
+    }
+
+    fn estimates(&self) -> bool {
+        false
     }
 
     fn pass_done(&self, film: &Film<N>) -> ControlFlow<()> {

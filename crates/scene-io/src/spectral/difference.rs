@@ -188,8 +188,8 @@ mod tests {
                 .wrapping_add(1442695040888963407);
             (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
         };
-        for index in 0..film.tiles().len() {
-            let count = film.tiles()[index].sums().len();
+        let counts: Vec<usize> = film.tiles().map(|t| t.sums().len()).collect();
+        for (index, count) in counts.into_iter().enumerate() {
             let sums: Vec<[f64; 3]> = (0..count)
                 .map(|_| colour.map(|v| v + noise * random()))
                 .collect();

@@ -3,7 +3,6 @@
 
 mod block;
 mod lanes;
-mod pages;
 mod traverse;
 mod tree;
 
@@ -11,7 +10,7 @@ use crate::math::U;
 use crate::path::{HitLanes, RayLanes};
 use crate::shape::{ShearedRay, Triangle};
 use block::{Block, WIDTH};
-use brdf::LANES;
+use brdf::{LANES, Pages};
 use glam::Vec3;
 use lanes::Lanes8;
 use obvhs::BvhBuildParams;
@@ -19,7 +18,6 @@ use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::ploc::PlocBuilder;
 use obvhs::triangle::Triangle as BoxedTriangle;
-use pages::Pages;
 use traverse::{Stack, Tree, TreeRay};
 use tree::{Node, Opener};
 
@@ -69,8 +67,8 @@ impl Bvh {
             .map(|leaf| Block::new(leaf.iter().filter_map(member)))
             .collect();
         let bvh = Self {
-            nodes: Pages::new(wide.nodes),
-            blocks: Pages::new(blocks),
+            nodes: Pages::from(wide.nodes),
+            blocks: Pages::from(blocks),
             lanes: Lanes8::detect(),
             scale,
             unscale,
@@ -80,13 +78,13 @@ impl Bvh {
 
     /// Bytes of nodes and leaves.
     pub(crate) fn bytes(&self) -> usize {
-        size_of_val(self.nodes.as_slice()) + size_of_val(self.blocks.as_slice())
+        size_of_val(&*self.nodes) + size_of_val(&*self.blocks)
     }
 
     /// Triangle `index`, scaled.
     #[inline]
     fn triangle(&self, index: u32) -> Triangle {
-        self.blocks.as_slice()[index as usize / WIDTH].triangle(index as usize % WIDTH)
+        self.blocks[index as usize / WIDTH].triangle(index as usize % WIDTH)
     }
 
     /// Where the ray `o + t d`, which met triangle `index`, did so.
@@ -112,7 +110,7 @@ impl Bvh {
     /// Low and high corner of the box around everything.
     pub(crate) fn bounds(&self) -> [Vec3; 2] {
         let none = [Vec3::INFINITY, Vec3::NEG_INFINITY];
-        let all = self.nodes.as_slice().first().map_or(none, Node::bounds);
+        let all = self.nodes.first().map_or(none, Node::bounds);
         all.map(|corner| corner * self.unscale)
     }
 
@@ -153,8 +151,8 @@ impl Bvh {
     #[inline(always)]
     fn tree(&self) -> Tree<'_> {
         Tree {
-            nodes: self.nodes.as_slice(),
-            blocks: self.blocks.as_slice(),
+            nodes: &self.nodes,
+            blocks: &self.blocks,
             lanes: self.lanes,
         }
     }

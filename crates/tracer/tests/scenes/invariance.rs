@@ -91,7 +91,7 @@ fn a_render_that_was_cancelled_and_stored_goes_on_to_the_same_bits() {
     );
 
     let mut second = Film::<1>::new(50, 37, 8);
-    for (i, tile) in first.tiles().iter().enumerate() {
+    for (i, tile) in first.tiles().enumerate() {
         second.restore(i, tile.done(), tile.sums()).unwrap();
     }
     assert_eq!(first, second);

@@ -63,7 +63,7 @@ impl Keeper {
             );
         }
         let sums = found.rgb();
-        let most = sums.tiles().iter().map(tracer::Tile::done).max();
+        let most = sums.tiles().map(|t| t.done()).max();
         let most = most.unwrap_or_default();
         if most > self.about.spp {
             bail!(
@@ -90,7 +90,7 @@ impl Keeper {
 
 /// Samples a pixel that every tile of the shard has.
 pub(crate) fn least<const N: usize>(film: &Film<N>, shard: Option<Shard>) -> u32 {
-    let tiles = film.tiles().iter().enumerate();
+    let tiles = film.tiles().enumerate();
     tiles
         .filter(|(i, _)| shard.is_none_or(|s| s.has(*i)))
         .map(|(_, tile)| tile.done())

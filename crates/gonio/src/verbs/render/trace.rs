@@ -109,7 +109,7 @@ fn samples(
 
 /// Paths that are still to come.
 fn left(film: &Film<3>, settings: &Settings) -> u64 {
-    let tiles = film.tiles().iter().enumerate();
+    let tiles = film.tiles().enumerate();
     let mine = tiles.filter(|(i, _)| settings.shard.is_none_or(|s| s.has(*i)));
     mine.map(|(_, t)| {
         let samples = u64::from(settings.spp.saturating_sub(t.done()));
