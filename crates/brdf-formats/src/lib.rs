@@ -2,7 +2,7 @@
 //!
 //! * [`detect`] tells the format from the content, never from a file name; [`FORMATS`] lists them all.
 //! * [`read`] gives a [`File`]; each format also has its own reader, for instance
-//!   [`MerlFile::from_bytes`], and [`MerlStream`] decodes large MERL files in small pieces.
+//!   [`MerlFile::from_bytes`], and [`MerlReader`] decodes large MERL files piece by piece, on any number of threads.
 //! * Files that can be written come back bit for bit: the writers neither round nor reorder.
 //!
 //! The structs mirror the file. Nothing here interpolates, converts colour, clamps, rescales or fills;
@@ -20,7 +20,7 @@ mod format;
 mod kaist;
 mod lines;
 mod merl;
-mod merl_stream;
+mod merl_reader;
 mod number;
 mod pbrt_text;
 mod rgl;
@@ -34,7 +34,7 @@ pub use error::{Error, ErrorKind, Place};
 pub use file::{File, read};
 pub use format::{FORMATS, Format, PREFIX, Writer, detect, detect_prefix};
 pub use merl::{MERL_SCALE, MerlFile};
-pub use merl_stream::MerlStream;
+pub use merl_reader::{MerlReader, ReadAt};
 pub use pbrt_text::PbrtTextFile;
 pub use rgl::{RglArray, RglFile, RglView};
 pub use tensor::{Dtype, Tensor, TensorFile};

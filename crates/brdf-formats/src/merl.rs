@@ -103,6 +103,12 @@ impl MerlFile {
 
     /// The file's bytes.
     #[must_use]
+    pub fn as_bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// A copy of the file's bytes.
+    #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         self.bytes.clone()
     }

@@ -6,7 +6,7 @@ pub mod scattered;
 
 pub use grid::{
     BinnedGrid, CellPolicy, CellReport, GridError, Gridded, GriddedN, HalfDiffTable, HeroGrid,
-    Interpolation, MerlLoss, PhiDomain, TableBuilder, directional_albedo, mix,
+    Interpolation, MerlLoss, PhiDomain, directional_albedo, mix,
 };
 pub use rgl::{RglN, RglTable};
 pub use scattered::{

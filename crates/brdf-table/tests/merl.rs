@@ -3,7 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use brdf::{HalfDiff, Status, direction};
-use brdf_formats::{MerlFile, MerlStream};
+use brdf_formats::{MerlFile, MerlReader};
 use brdf_table::{CellPolicy, HalfDiffTable, Interpolation, PhiDomain};
 use glam::DVec3;
 use spectrum::{Basis, RgbSpace};
@@ -55,16 +55,16 @@ fn policies_judge_and_report() {
 }
 
 #[test]
-fn stream_and_file_give_the_same_table() {
+fn reader_and_file_give_the_same_table() {
     let bytes = file().to_bytes();
-    let stream = MerlStream::new(&bytes[..], bytes.len() as u64).unwrap();
-    let a = HalfDiffTable::from_merl_stream(stream, CellPolicy::AnyNegative).unwrap();
+    let reader = MerlReader::new(&bytes[..], bytes.len() as u64).unwrap();
+    let a = HalfDiffTable::from_merl_reader(&reader, CellPolicy::AnyNegative).unwrap();
     assert_eq!(
         a,
         HalfDiffTable::from_merl(&file(), CellPolicy::AnyNegative).unwrap()
     );
-    let cut = MerlStream::new(&bytes[..bytes.len() - 8], bytes.len() as u64).unwrap();
-    let error = HalfDiffTable::from_merl_stream(cut, CellPolicy::AnyNegative).unwrap_err();
+    let cut = MerlReader::new(&bytes[..bytes.len() - 8], bytes.len() as u64).unwrap();
+    let error = HalfDiffTable::from_merl_reader(&cut, CellPolicy::AnyNegative).unwrap_err();
     assert!(error.to_string().contains("byte"), "{error}");
 }
 

@@ -1,8 +1,9 @@
 //! Every byte that enters does so here: regular files of a bounded size.
 
 use crate::error::{Error, ErrorKind, os_message};
+use brdf_formats::ReadAt;
 use std::fs::File;
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::Path;
 
 /// Largest file of any kind that is read, bytes: 4 GiB.
@@ -44,6 +45,30 @@ pub fn open(path: &Path, max_bytes: u64) -> Result<(File, u64), Error> {
         return Err(Error::new(ErrorKind::TooLarge, message).in_file(path));
     }
     Ok((File::open(path).map_err(|e| refuse(&e))?, about.len()))
+}
+
+/// A file to be read anywhere, by several threads at once.
+#[derive(Debug)]
+pub(crate) struct Places(pub(crate) File);
+
+impl ReadAt for Places {
+    #[cfg(unix)]
+    fn read_exact_at(&self, into: &mut [u8], at: u64) -> io::Result<()> {
+        std::os::unix::fs::FileExt::read_exact_at(&self.0, into, at)
+    }
+
+    #[cfg(windows)]
+    fn read_exact_at(&self, mut into: &mut [u8], mut at: u64) -> io::Result<()> {
+        while !into.is_empty() {
+            match std::os::windows::fs::FileExt::seek_read(&self.0, into, at) {
+                Ok(0) => return Err(io::ErrorKind::UnexpectedEof.into()),
+                Ok(n) => (into, at) = (&mut into[n..], at + n as u64),
+                Err(e) if e.kind() == io::ErrorKind::Interrupted => {}
+                Err(e) => return Err(e),
+            }
+        }
+        Ok(())
+    }
 }
 
 /// The whole content of a regular file of at most `max_bytes`.

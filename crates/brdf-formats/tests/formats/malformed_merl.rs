@@ -1,9 +1,9 @@
-//! Broken MERL files and streams, each with the one line that says what is wrong.
+//! Broken MERL files, each with the one line that says what is wrong.
 
 use crate::fixtures::{merl, merl_header};
 use crate::malformed::expect;
-use brdf_formats::{Error, ErrorKind, MerlFile, MerlStream, Place};
-use std::io::{self, Read};
+use brdf_formats::{Error, ErrorKind, MerlFile, MerlReader, Place, ReadAt};
+use std::io;
 
 #[test]
 fn broken_merl_files_are_refused_with_one_clear_line() {
@@ -53,35 +53,43 @@ fn broken_merl_files_are_refused_with_one_clear_line() {
     ];
     for (bytes, message) in cases {
         expect(MerlFile::from_bytes(bytes.clone()), message);
-        expect(MerlStream::new(&bytes[..], bytes.len() as u64), message);
+        expect(MerlReader::new(&bytes[..], bytes.len() as u64), message);
     }
 }
 
-/// Reads a whole stream and counts its values.
-fn drain(source: impl Read, total: u64) -> Result<usize, Error> {
-    let mut stream = MerlStream::new(source, total)?;
+/// Reads a whole file in pieces of at most 72 values and counts these.
+fn drain(source: &(impl ReadAt + ?Sized), total: u64) -> Result<usize, Error> {
+    let reader = MerlReader::new(source, total)?;
     let mut count = 0;
-    while let Some(chunk) = stream.next_chunk()? {
-        count += chunk.len();
+    for channel in 0..3 {
+        for first in (0..reader.cells()).step_by(72) {
+            let mut piece = vec![0.0; 72.min(reader.cells() - first) as usize];
+            reader.read(channel, first, &mut piece)?;
+            count += piece.len();
+        }
     }
+    reader.check_end()?;
     Ok(count)
 }
 
-/// A source that fails with a message of its own.
-struct Broken;
+/// A source that fails after its bytes, with a message of its own.
+struct Broken<'a>(&'a [u8]);
 
-impl Read for Broken {
-    fn read(&mut self, _: &mut [u8]) -> io::Result<usize> {
-        Err(io::Error::other("the disk is gone"))
+impl ReadAt for Broken<'_> {
+    fn read_exact_at(&self, into: &mut [u8], at: u64) -> io::Result<()> {
+        let read = self.0.read_exact_at(into, at);
+        read.map_err(|_| io::Error::other("the disk is gone"))
     }
 }
 
 #[test]
-fn streams_that_do_not_keep_their_length_are_refused() {
+fn files_that_do_not_keep_their_length_are_refused() {
     let bytes = merl();
     assert_eq!(drain(&bytes[..], 588).unwrap(), 72);
-    let short = "byte 12: values: expected 588 bytes in all, found the end of the file";
+    let short = "byte 396: values: expected 588 bytes in all, found the end of the file";
     expect(drain(&bytes[..500], 588), short);
+    let short = "byte 0: dims: expected 588 bytes in all, found the end of the file";
+    expect(drain(&bytes[..11], 588), short);
     let long = [bytes.clone(), vec![1]].concat();
     let message = "byte 588: end: expected the end of the file, found more bytes";
     expect(drain(&long[..], 588), message);
@@ -95,7 +103,7 @@ fn streams_that_do_not_keep_their_length_are_refused() {
 fn a_failing_source_is_an_io_error_with_its_cause() {
     let bytes = merl();
     for (source, at) in [(&bytes[..0], 0), (&bytes[..12], 12), (&bytes[..], 588)] {
-        let error = drain(source.chain(Broken), 588).unwrap_err();
+        let error = drain(&Broken(source), 588).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::Io);
         assert_eq!(error.place(), Place::Byte(at));
         assert!(
@@ -103,5 +111,18 @@ fn a_failing_source_is_an_io_error_with_its_cause() {
             "{error}"
         );
         assert!(std::error::Error::source(&error).is_some(), "no cause");
+    }
+}
+
+#[test]
+fn cells_that_are_not_there_are_refused() {
+    let bytes = merl();
+    let reader = MerlReader::new(&bytes[..], 588).unwrap();
+    for (channel, first, count) in [(3, 0, 1), (0, 24, 1), (2, 20, 5), (0, u64::MAX, 2), (1, 0, 25)] {
+        let error = reader.read(channel, first, &mut vec![0.0; count]);
+        let message = format!(
+            "file: values: expected cells of 3 planes of 24, found {count} from number {first} of plane {channel}"
+        );
+        expect(error, &message);
     }
 }

@@ -1,51 +1,42 @@
-//! Full-size MERL files, read and streamed without a second copy.
+//! Full-size MERL files, read whole and in places without a second copy.
 
 use crate::fixtures::merl_header;
-use brdf_formats::{MerlFile, MerlStream};
-use std::io::{self, Read};
+use brdf_formats::{MerlFile, MerlReader, ReadAt};
+use std::io;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// A MERL file that is never in memory: a header, then as many zero bytes as asked for.
+/// A MERL file that is never in memory: a header, then zeros without end.
 struct Endless {
-    header: io::Cursor<Vec<u8>>,
-    left: u64,
+    header: Vec<u8>,
     /// The longest read that was asked for.
-    longest: usize,
+    longest: AtomicUsize,
 }
 
-impl Read for Endless {
-    fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
-        self.longest = self.longest.max(out.len());
-        match self.header.read(out)? {
-            0 => {
-                let count = self.left.min(out.len() as u64) as usize;
-                out[..count].fill(0);
-                self.left -= count as u64;
-                Ok(count)
-            }
-            count => Ok(count),
+impl ReadAt for Endless {
+    fn read_exact_at(&self, into: &mut [u8], at: u64) -> io::Result<()> {
+        self.longest.fetch_max(into.len(), Ordering::Relaxed);
+        into.fill(0);
+        if at == 0 {
+            let count = into.len().min(self.header.len());
+            into[..count].copy_from_slice(&self.header[..count]);
         }
+        Ok(())
     }
 }
 
 #[test]
-fn a_stream_of_any_size_asks_for_small_pieces() {
-    let values = 90 * 90 * 360 * 3;
-    let mut source = Endless {
-        header: io::Cursor::new(merl_header([90, 90, 360])),
-        left: values * 8,
-        longest: 0,
+fn a_file_of_any_size_is_asked_for_what_is_wanted_of_it() {
+    let source = Endless {
+        header: merl_header([90, 90, 360]),
+        longest: AtomicUsize::new(0),
     };
-    let mut stream = MerlStream::new(&mut source, 12 + values * 8).unwrap();
-    let mut count = 0;
-    while let Some(chunk) = stream.next_chunk().unwrap() {
-        count += chunk.len() as u64;
+    let reader = MerlReader::new(&source, 12 + 90 * 90 * 360 * 24).unwrap();
+    let mut piece = vec![1.0; 8192];
+    for first in (0..reader.cells() - 8192).step_by(8192) {
+        reader.read(1, first, &mut piece).unwrap();
     }
-    assert_eq!(count, values);
-    assert!(
-        source.longest <= 1 << 16,
-        "asked for {} bytes at once",
-        source.longest
-    );
+    assert_eq!(piece, vec![0.0; 8192]);
+    assert_eq!(source.longest.into_inner(), 1 << 16, "bytes at once");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! What is written comes back bit for bit, and no bytes make a reader panic.
 
 use crate::fixtures;
-use brdf_formats::{AstmFile, Channels, Error, FORMATS, File, MerlFile, MerlStream, PbrtTextFile};
+use brdf_formats::{AstmFile, Channels, Error, FORMATS, File, MerlFile, MerlReader, PbrtTextFile};
 use brdf_formats::{RglFile, TensorFile, detect, read};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -60,12 +60,17 @@ proptest! {
         prop_assert_eq!(detect(&bytes).unwrap().name, "merl");
         let again = MerlFile::from_bytes(bytes.clone()).unwrap();
         prop_assert_eq!(again.dims(), dims);
-        let mut stream = MerlStream::new(&bytes[..], bytes.len() as u64).unwrap();
-        let mut streamed = Vec::new();
-        while let Some(chunk) = stream.next_chunk().unwrap() {
-            streamed.extend(bits(chunk));
+        let reader = MerlReader::new(&bytes[..], bytes.len() as u64).unwrap();
+        prop_assert_eq!(reader.cells(), again.cells() as u64);
+        let mut read = Vec::new();
+        for channel in 0..3 {
+            for first in 0..reader.cells() {
+                // up to three values, from anywhere
+                let mut some = vec![0.0; 3.min(reader.cells() - first) as usize];
+                reader.read(channel, first, &mut some).unwrap();
+                read.extend(bits(&some[..1]));
+            }
         }
-        prop_assert_eq!(stream.cells(), again.cells() as u64);
         let mut planes = Vec::new();
         for channel in 0..3 {
             planes.extend(again.plane(channel).map(f64::to_bits));
@@ -73,7 +78,7 @@ proptest! {
                 prop_assert_eq!(again.value(channel, cell).to_bits(), bits_of(channel, cell));
             }
         }
-        prop_assert_eq!(planes, streamed);
+        prop_assert_eq!(planes, read);
     }
 
     #[test]
@@ -198,10 +203,10 @@ fn survive(bytes: &[u8]) {
     if let Ok(file) = RglFile::from_bytes(bytes.to_vec()) {
         assert_eq!(file.view().is_ok(), file.is_isotropic(), "the view fails");
     }
-    if let Ok(mut stream) = MerlStream::new(bytes, bytes.len() as u64) {
-        while let Some(chunk) = stream.next_chunk().unwrap() {
-            assert!(!chunk.is_empty(), "an empty chunk would never end");
-        }
+    if let Ok(reader) = MerlReader::new(bytes, bytes.len() as u64) {
+        let mut last = [0.0];
+        reader.read(2, reader.cells() - 1, &mut last).unwrap();
+        reader.check_end().unwrap();
     }
 }
 

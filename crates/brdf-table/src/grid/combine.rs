@@ -5,6 +5,8 @@ use crate::grid::layout::PhiDomain;
 use crate::grid::lookup::Interpolation;
 use crate::grid::seal::Cell;
 use crate::grid::table::HalfDiffTable;
+use brdf::Pages;
+use rayon::prelude::*;
 use spectrum::Basis;
 
 /// The table `sum_k weight_k * table_k`. A cell counts as measured only if it is in every table.
@@ -33,7 +35,7 @@ pub fn mix(parts: &[(&HalfDiffTable, f64)]) -> Result<HalfDiffTable, GridError> 
             return Err(GridError::BasisMismatch { index });
         }
     }
-    let mut nodes = vec![0.0_f32; first.nodes().len()];
+    let mut nodes = Pages::zeroed(first.nodes().len());
     for (k, node) in nodes.iter_mut().enumerate() {
         let sum: f64 = parts.iter().map(|(t, w)| w * f64::from(t.nodes()[k])).sum();
         *node = sum as f32;
@@ -62,18 +64,19 @@ impl HalfDiffTable {
                 return Err(GridError::Weight { index });
             }
         }
-        let mut nodes = Vec::with_capacity(self.layout().nodes() * basis.len());
-        for node in 0..self.layout().nodes() {
-            let old = self.node_values(node);
-            for j in 0..basis.len() {
-                let sum: f64 = old
-                    .iter()
-                    .zip(matrix)
-                    .map(|(v, row)| f64::from(*v) * row[j])
-                    .sum();
-                nodes.push(sum as f32);
+        let mut nodes = Pages::zeroed(self.layout().nodes() * basis.len());
+        let rows = nodes.par_chunks_mut((self.layout().row() * basis.len()).max(1));
+        let olds = self.nodes().par_chunks((self.layout().row() * self.channels()).max(1));
+        rows.zip(olds).for_each(|(row, olds)| {
+            let news = row.chunks_exact_mut(basis.len());
+            for (new, old) in news.zip(olds.chunks_exact(self.channels())) {
+                for (j, new) in new.iter_mut().enumerate() {
+                    let parts = old.iter().zip(matrix);
+                    let sum: f64 = parts.map(|(v, row)| f64::from(*v) * row[j]).sum();
+                    *new = sum as f32;
+                }
             }
-        }
+        });
         Ok(self.rebuilt(basis, nodes, |cell| self.is_valid(cell)))
     }
 
@@ -86,7 +89,7 @@ impl HalfDiffTable {
     }
 
     /// A table on the same grid from nodes that hold a value everywhere.
-    fn rebuilt(&self, basis: Basis, nodes: Vec<f32>, valid: impl Fn([usize; 3]) -> bool) -> Self {
+    fn rebuilt(&self, basis: Basis, nodes: Pages<f32>, valid: impl Fn([usize; 3]) -> bool) -> Self {
         let mut cells: Vec<Cell> = self
             .cell_indices()
             .map(|cell| {

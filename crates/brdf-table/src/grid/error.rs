@@ -9,14 +9,6 @@ pub enum GridError {
     /// A dimension is zero, or the product does not fit in memory.
     #[error("table dimensions {0:?}: each must be at least 1 and the table must fit in memory")]
     Dimensions([usize; 3]),
-    /// More or fewer values arrived than the dimensions ask for.
-    #[error("table values: expected {expected}, found {found}")]
-    ValueCount {
-        /// Channels times cells.
-        expected: usize,
-        /// What was pushed.
-        found: usize,
-    },
     /// The table has another number of channels than is asked of it.
     #[error("channels: expected {expected}, found {found}")]
     Channels {

@@ -1,7 +1,7 @@
 //! One bit a node.
 
 /// A fixed number of bits.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Mask {
     words: Vec<u64>,
 }
@@ -35,6 +35,13 @@ impl Mask {
     pub(crate) fn assign(&mut self, k: usize, value: bool) {
         if value {
             self.set(k);
+        }
+    }
+
+    /// Sets the bits of `other` too, whose first word is this one's number `first`.
+    pub(crate) fn add_words(&mut self, first: usize, other: &Self) {
+        for (word, more) in self.words.iter_mut().skip(first).zip(&other.words) {
+            *word |= more;
         }
     }
 

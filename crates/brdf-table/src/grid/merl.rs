@@ -1,12 +1,14 @@
 //! MERL files to tables and back.
 
-use crate::grid::builder::{CellPolicy, CellReport, TableBuilder};
+use crate::grid::cells::{CellPolicy, CellReport};
 use crate::grid::error::GridError;
-use crate::grid::layout::PhiDomain;
+use crate::grid::layout::{Layout, PhiDomain};
+use crate::grid::seal::Cell;
 use crate::grid::table::HalfDiffTable;
-use brdf_formats::{MERL_SCALE, MerlFile, MerlStream};
+use brdf::Pages;
+use brdf_formats::{MERL_SCALE, MerlFile, MerlReader, ReadAt};
+use rayon::prelude::*;
 use spectrum::{Basis, RgbSpace};
-use std::io::Read;
 
 /// What a MERL file can't say about the table it was made from.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
@@ -21,8 +23,8 @@ pub struct MerlLoss {
     pub phi_domain: bool,
 }
 
-/// Values converted at a time.
-const CHUNK: usize = 8192;
+/// Channels of a MERL file.
+const CHANNELS: usize = 3;
 
 /// The phi_d range of files in the MERL layout: 360 degrees at one degree (four times as many cells as
 /// theta_d, the non-reciprocal variant) is a full turn, anything else [0, pi) with period pi.
@@ -34,48 +36,47 @@ fn domain(dims: [usize; 3]) -> PhiDomain {
     }
 }
 
-fn builder(dims: [u32; 3]) -> Result<TableBuilder, GridError> {
-    let dims = dims.map(|n| n as usize);
-    // the primaries of MERL are documented nowhere; every renderer takes them for its own
-    let basis = Basis::Rgb(RgbSpace::srgb());
-    TableBuilder::new(dims, domain(dims), basis, MERL_SCALE.to_vec())
-}
-
 impl HalfDiffTable {
     /// The table of a MERL file: scaled to f_r, cells judged by `policy`. The channels count as linear sRGB.
     ///
     /// # Errors
     /// [`GridError::Dimensions`] if the table is too large to address.
     pub fn from_merl(file: &MerlFile, policy: CellPolicy) -> Result<(Self, CellReport), GridError> {
-        let mut builder = builder(file.dims())?;
-        let mut chunk = Vec::with_capacity(CHUNK);
-        for channel in 0..3 {
-            let mut plane = file.plane(channel);
-            loop {
-                chunk.clear();
-                chunk.extend(plane.by_ref().take(CHUNK));
-                if chunk.is_empty() {
-                    break;
-                }
-                builder.push(&chunk)?;
-            }
-        }
-        builder.finish(policy)
+        let bytes = file.as_bytes();
+        Self::from_merl_reader(&MerlReader::new(bytes, bytes.len() as u64)?, policy)
     }
 
-    /// [`Self::from_merl`] while the file is being read: nothing but the table is ever held.
+    /// [`Self::from_merl`] while the file is being read, on all threads: beside the table each holds the cells of one
+    /// theta_h, and nothing else is ever held.
     ///
     /// # Errors
-    /// As [`Self::from_merl`], and [`GridError::File`] for what the stream reports.
-    pub fn from_merl_stream<R: Read>(
-        mut stream: MerlStream<R>,
+    /// As [`Self::from_merl`], and [`GridError::File`] for what the reader reports.
+    pub fn from_merl_reader<S: ReadAt + ?Sized>(
+        reader: &MerlReader<'_, S>,
         policy: CellPolicy,
     ) -> Result<(Self, CellReport), GridError> {
-        let mut builder = builder(stream.dims())?;
-        while let Some(chunk) = stream.next_chunk()? {
-            builder.push(chunk)?;
-        }
-        builder.finish(policy)
+        let dims = reader.dims().map(|n| n as usize);
+        let layout =
+            Layout::checked(dims, domain(dims), CHANNELS).ok_or(GridError::Dimensions(dims))?;
+        let mut nodes = Pages::zeroed(layout.nodes() * CHANNELS);
+        let mut cells = vec![Cell::Missing; layout.cells()];
+        let plane = dims[1] * dims[2];
+        let slabs = nodes.par_chunks_mut(layout.slab() * CHANNELS).skip(1);
+        let reports = (slabs.zip(cells.par_chunks_mut(plane)).enumerate()).map_init(
+            || vec![0.0; CHANNELS * plane],
+            |values, (h, (slab, cells))| {
+                for (channel, into) in values.chunks_exact_mut(plane).enumerate() {
+                    reader.read(channel, (h * plane) as u64, into)?;
+                }
+                let (slab, _) = slab.as_chunks_mut();
+                Ok::<_, GridError>(fill(layout, values, (slab, cells), policy))
+            },
+        );
+        let report = reports.try_reduce(CellReport::default, |a, b| Ok(a.and(b)))?;
+        reader.check_end()?;
+        // the primaries of MERL are documented nowhere; every renderer takes them for its own
+        let basis = Basis::Rgb(RgbSpace::srgb());
+        Ok((Self::seal(layout, basis, nodes, &mut cells), report))
     }
 
     /// The table as a MERL file, -1 in cells that were not measured, and what was lost. A [`PhiDomain::Mirror`]
@@ -131,4 +132,26 @@ impl HalfDiffTable {
             .map(|v| v.iter().filter(|v| **v < 0.0).count())
             .sum()
     }
+}
+
+/// Nodes and cells of one theta_h from its values, plane by plane.
+fn fill(
+    layout: Layout,
+    values: &[f64],
+    (slab, cells): (&mut [[f32; CHANNELS]], &mut [Cell]),
+    policy: CellPolicy,
+) -> CellReport {
+    let mut report = CellReport::default();
+    let n_p = layout.dims[2];
+    let (rgb, plane) = (MERL_SCALE, cells.len());
+    for (d, cells) in cells.chunks_exact_mut(n_p).enumerate() {
+        let first = layout.node([0, d, 0]) - layout.slab();
+        for (p, (cell, node)) in cells.iter_mut().zip(&mut slab[first..]).enumerate() {
+            let k = d * n_p + p;
+            let mut f = std::array::from_fn(|c| (values[c * plane + k] * rgb[c]) as f32);
+            *cell = report.judge(&mut f, policy);
+            *node = f;
+        }
+    }
+    report
 }

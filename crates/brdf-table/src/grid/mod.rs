@@ -1,13 +1,13 @@
 //! Regular tables over Rusinkiewicz' half and difference angles: the MERL layout, generalised.
 //!
-//! [`HalfDiffTable`] holds the cells, [`Gridded`] and [`GriddedN`] interpolate them, [`BinnedGrid`] and [`HeroGrid`] those of many bands; [`TableBuilder`] takes the
-//! values of a file and a named [`CellPolicy`], [`mix`] adds tables.
+//! [`HalfDiffTable`] holds the cells, judged by a named [`CellPolicy`]; [`Gridded`] and [`GriddedN`] interpolate them, [`BinnedGrid`] and [`HeroGrid`] those of
+//! many bands; [`mix`] adds tables.
 //! Layout, cell placement and the averaging at the poles: `docs/tables.md`.
 
 mod albedo;
 mod band_grid;
 mod binned;
-mod builder;
+mod cells;
 mod combine;
 mod error;
 pub(crate) mod fast_math;
@@ -24,7 +24,7 @@ mod table;
 
 pub use albedo::directional_albedo;
 pub use binned::BinnedGrid;
-pub use builder::{CellPolicy, CellReport, TableBuilder};
+pub use cells::{CellPolicy, CellReport};
 pub use combine::mix;
 pub use error::GridError;
 pub use gridded::{Gridded, GriddedN};

@@ -4,7 +4,7 @@ use crate::grid::error::GridError;
 use crate::grid::layout::{Layout, PhiDomain};
 use crate::grid::mask::Mask;
 use crate::grid::seal::{Cell, Unsealed};
-use brdf::{HalfDiff, Status, Symmetry};
+use brdf::{HalfDiff, Pages, Status, Symmetry};
 use glam::DVec3;
 use rayon::prelude::*;
 use spectrum::Basis;
@@ -12,13 +12,13 @@ use spectrum::Basis;
 /// Isotropic reflectance on a regular grid of half and difference angles [Rusinkiewicz1998; Matusik2003].
 ///
 /// Axes: theta_h in [0, pi/2], denser toward 0 (cell = n sqrt(theta_h / (pi/2))); theta_d in [0, pi/2],
-/// uniform; phi_d uniform over the range of its [`PhiDomain`]. Values are f_r in 1/sr in single precision,
+/// uniform; phi_d uniform over the range of its [`PhiDomain`]. Values are f_r in 1/sr in single precision, in huge pages,
 /// given at cell centres. One bit a cell tells measurements from filled values; it survives every operation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HalfDiffTable {
     layout: Layout,
     basis: Basis,
-    nodes: Vec<f32>,
+    nodes: Pages<f32>,
     mask: Mask,
 }
 
@@ -39,7 +39,7 @@ impl HalfDiffTable {
             phi,
         };
         let channels = basis.len();
-        let mut nodes = vec![0.0_f32; layout.nodes() * channels];
+        let mut nodes = Pages::zeroed(layout.nodes() * channels);
         let mut cells = vec![Cell::Missing; layout.cells()];
         let [_, n_d, n_p] = layout.dims;
         let slabs = nodes
@@ -72,7 +72,7 @@ impl HalfDiffTable {
     pub(crate) fn seal(
         layout: Layout,
         basis: Basis,
-        mut nodes: Vec<f32>,
+        mut nodes: Pages<f32>,
         cells: &mut [Cell],
     ) -> Self {
         let mask = Unsealed {

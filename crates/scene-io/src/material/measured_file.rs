@@ -11,9 +11,9 @@ use crate::load;
 use crate::scene::{ColourChoice, InterpolationName, NegativeName};
 use crate::sealed::content_hash;
 use brdf::Measured;
-use brdf_formats::{File, Format, MerlStream, PREFIX, RglFile};
+use brdf_formats::{File, Format, MerlReader, PREFIX, ReadAt, RglFile};
 use brdf_table::{CellPolicy, GridError, Gridded, HalfDiffTable, Interpolation, RglTable};
-use std::io::{Chain, Cursor, Read};
+use std::io::{Cursor, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -25,7 +25,7 @@ use std::sync::Arc;
 /// Unreadable files, unknown formats, broken content, an interpolation or policy that does not go with the format.
 pub fn load_measured(path: &Path, options: &MaterialOptions) -> Result<LoadedMeasured, Error> {
     let load = || match Content::open(path)? {
-        Content::Merl { format, source, of } => merl((format, of), source, options),
+        Content::Merl { format, source, of } => merl((format, of), &source, options),
         Content::Parsed { file, of } => parsed(&file, of, options),
     };
     load()
@@ -69,7 +69,7 @@ pub fn identify(path: &Path, colour: &ColourChoice) -> Result<Identity, Error> {
     };
     let identify = || match Content::open(path)? {
         Content::Merl { format, source, of } => {
-            merl((format, of), source, &options).map(Identity::of)
+            merl((format, of), &source, &options).map(Identity::of)
         }
         Content::Parsed { file, of } => match scattered::cloud(&file) {
             Some(cloud) => {
@@ -113,7 +113,7 @@ enum Content {
     /// Still to be decoded.
     Merl {
         format: &'static Format,
-        source: Chain<Cursor<Vec<u8>>, std::fs::File>,
+        source: load::Places,
         of: Origin,
     },
     Parsed {
@@ -132,12 +132,12 @@ impl Content {
         let mut prefix = Vec::new();
         (file.by_ref().take(PREFIX as u64).read_to_end(&mut prefix)).map_err(refuse)?;
         let found = brdf_formats::detect_prefix(&prefix, bytes);
-        let source = Cursor::new(prefix).chain(file);
         if let Some(format) = found.filter(|f| f.name == "merl") {
-            let of = Origin { bytes, key: 0 };
+            let (source, of) = (load::Places(file), Origin { bytes, key: 0 });
             return Ok(Self::Merl { format, source, of });
         }
         let mut content = Vec::with_capacity(usize::try_from(bytes).unwrap_or(0));
+        let source = Cursor::new(prefix).chain(file);
         (source.take(bytes).read_to_end(&mut content)).map_err(refuse)?;
         let key = content_hash(&content);
         let file = brdf_formats::read(content).map_err(broken)?;
@@ -153,7 +153,7 @@ fn parsed(file: &File, of: Origin, options: &MaterialOptions) -> Result<LoadedMe
     match file {
         File::Merl(merl_file) => merl(
             (file.format(), of),
-            Cursor::new(merl_file.to_bytes()),
+            merl_file.as_bytes(),
             options,
         ),
         File::Rgl(file_rgl) => rgl((file.format(), of), file_rgl, options),
@@ -176,7 +176,7 @@ fn broken(e: brdf_formats::Error) -> Error {
 
 fn merl(
     (format, of): (&'static Format, Origin),
-    source: impl Read,
+    source: &(impl ReadAt + ?Sized),
     options: &MaterialOptions,
 ) -> Result<LoadedMeasured, Error> {
     let interpolation = match options.interpolation {
@@ -190,8 +190,8 @@ fn merl(
         NegativeName::Clamp => CellPolicy::PerChannel,
         NegativeName::Keep => CellPolicy::AllNegative,
     };
-    let stream = MerlStream::new(source, of.bytes).map_err(broken)?;
-    let (table, cells) = HalfDiffTable::from_merl_stream(stream, policy).map_err(|e| match e {
+    let reader = MerlReader::new(source, of.bytes).map_err(broken)?;
+    let (table, cells) = HalfDiffTable::from_merl_reader(&reader, policy).map_err(|e| match e {
         GridError::File(e) => broken(e),
         other => Error::invalid(other.to_string()),
     })?;
