@@ -20,9 +20,9 @@ pub const MAX_SCENE_BYTES: u64 = 16 << 20;
     reason = "the one place where files are opened for reading"
 )]
 pub fn open(path: &Path, max_bytes: u64) -> Result<(File, u64), Error> {
-    let refuse = |e: &std::io::Error| {
+    let refuse = |e: &io::Error| {
         let kind = match e.kind() {
-            std::io::ErrorKind::NotFound => ErrorKind::NotFound,
+            io::ErrorKind::NotFound => ErrorKind::NotFound,
             _ => ErrorKind::Read,
         };
         Error::new(kind, format!("cannot read: {}", os_message(e))).in_file(path)

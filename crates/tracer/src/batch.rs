@@ -17,6 +17,9 @@ use std::time::Instant;
 /// A path this weak ends: its products would be denormal. What a shadow ray carries is light, of any strength.
 const FAINT: f32 = 1e-30;
 
+/// Up to so many materials, paths are sorted in one pass each.
+const FEW: usize = 6;
+
 /// Shortens shadow rays by a relative hair, so that what touches a light's back does not hide it.
 const NEARLY: f32 = 1.0 - 1.0 / 16_384.0;
 
@@ -182,14 +185,13 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
         self.paths.len = samples.count as usize * pixels;
     }
 
-    /// Adds the light that rays met, and sorts the paths that go on by material (counting sort).
+    /// Adds the light that rays met, and sorts the paths that go on by material.
     #[inline(always)]
     fn meet(&mut self, kernel: &Kernel<'_, N, S>, depth: u32) {
         let geometry = &kernel.scene.geometry;
         let end = kernel.scene.materials.len() as u32;
         let last = depth == kernel.max_depth;
         let nothing = kernel.sides.len() - 1;
-        self.ends.fill(0);
         let mut met = 0;
         for i in 0..self.paths.len {
             let (hits, k) = (&self.hits[i / LANES], i % LANES);
@@ -202,7 +204,6 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
             let code = kernel.sides[side];
             let bucket = if last { end } else { code & !SHINES };
             self.bucket[i] = bucket;
-            self.ends[bucket as usize] += 1;
             self.met[met] = i as u32;
             met += usize::from(code & SHINES != 0);
         }
@@ -211,14 +212,45 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
                 self.meet_light(kernel, depth, self.met[n] as usize);
             }
         }
+        if kernel.scene.materials.len() <= FEW {
+            self.order_few();
+        } else {
+            self.order_many();
+        }
+    }
+
+    /// One pass a material: no count waits for the one stored before it.
+    #[inline(always)]
+    fn order_few(&mut self) {
+        let bucket = &self.bucket[..self.paths.len];
+        let mut at = 0;
+        // the last bucket holds paths that end
+        let materials = self.ends.len() - 1;
+        for (material, end) in self.ends[..materials].iter_mut().enumerate() {
+            for (i, own) in bucket.iter().enumerate() {
+                self.order[at.min(bucket.len() - 1)] = i as u32;
+                at += usize::from(*own == material as u32);
+            }
+            *end = at;
+        }
+    }
+
+    /// Counting sort.
+    #[inline(never)]
+    fn order_many(&mut self) {
+        let bucket = &self.bucket[..self.paths.len];
+        self.ends.fill(0);
+        for own in bucket {
+            self.ends[*own as usize] += 1;
+        }
         let mut sum = 0;
         for end in &mut self.ends {
             let count = *end;
             *end = sum;
             sum += count;
         }
-        for (i, &bucket) in self.bucket[..self.paths.len].iter().enumerate() {
-            let at = &mut self.ends[bucket as usize];
+        for (i, own) in bucket.iter().enumerate() {
+            let at = &mut self.ends[*own as usize];
             self.order[*at] = i as u32;
             *at += 1;
         }
@@ -517,14 +549,10 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
         S: Develop<N, M>,
     {
         let pixels = tile.pixels().len();
-        for (i, sample) in (samples.first..samples.first + samples.count).enumerate() {
-            let first = i * pixels;
-            let light = self.slots[first..first + pixels].iter().enumerate();
-            let light =
-                light.map(|(k, light)| mode.develop(S::Tag::of(&self.tag, first + k), light));
-            tile.add(sample, light);
-        }
-        tile.finish(samples.first + samples.count);
+        tile.add(samples.first, samples.count, |sample, pixel| {
+            let slot = sample as usize * pixels + pixel;
+            mode.develop(S::Tag::of(&self.tag, slot), &self.slots[slot])
+        });
     }
 }
 

@@ -11,10 +11,11 @@ use crate::stats::Stats;
 /// Longest side of the pilot picture, and its replicates.
 const SIDE: u32 = 48;
 const REPLICATES: u32 = 8;
-/// Samples a pixel of its first look, and the most it takes where two looks leave the choice open.
+/// Samples a pixel of its first look, and the most it takes where that leaves the choice open.
 const FIRST: u32 = 8;
 const MOST: u32 = 32;
-/// Of the intervals that must not meet for a choice before that.
+/// A choice before that may cost at most this factor more than the other would, at this confidence of either error.
+const REGRET: f64 = 1.25;
 const CONFIDENCE: f64 = 0.95;
 /// Seed of the pilot: any other than the picture's.
 const SALT: u64 = 0x7069_6c6f_7421_0001;
@@ -49,7 +50,7 @@ impl Trial {
 
 /// The better of plain MIS and resampling for this scene, and what both did in a pilot of at most 48 x 48 pixels.
 ///
-/// The pilot ends as soon as it is clear which is better, after 8 to 32 samples a pixel. Work is counted, not timed, and the seed follows from that of `settings`: the choice is the same on every machine
+/// The pilot ends as soon as the choice can no longer be far wrong, after 8 to 32 samples a pixel. Work is counted, not timed, and the seed follows from that of `settings`: the choice is the same on every machine
 /// and for any number of threads.
 ///
 /// # Errors
@@ -79,19 +80,14 @@ pub fn choose_strategy<const N: usize, const M: usize, S: Develop<N, M>>(
         loop {
             let (a, b) = rayon::join(|| mis.until(spp), || ris.until(spp));
             let trials = [a?, b?];
-            if spp >= MOST || apart(&trials) {
-                let better = usize::from(trials[1].cost() < trials[0].cost());
+            let better = usize::from(trials[1].cost() < trials[0].cost());
+            let regret = trials[better].cost_ci()[1] / trials[1 - better].cost_ci()[0];
+            if spp >= MOST || regret < REGRET {
                 return Ok((trials[better].strategy, trials));
             }
             spp *= 2;
         }
     })
-}
-
-/// Whether it is known which is better: the intervals of both costs do not meet.
-fn apart([a, b]: &[Trial; 2]) -> bool {
-    let (a, b) = (a.cost_ci(), b.cost_ci());
-    a[1] < b[0] || b[1] < a[0]
 }
 
 /// One strategy being tried.

@@ -23,11 +23,11 @@ pub struct Estimate {
 
 /// A picture with the variance of each of its values.
 #[derive(Clone, Debug)]
-pub struct Moments<const N: usize> {
+pub struct Moments<const N: usize, T = f64> {
     /// The picture, row after row from the top.
-    pub mean: Vec<[f64; N]>,
+    pub mean: Vec<[T; N]>,
     /// Variance of each mean; infinite where fewer than two replicates have samples.
-    pub variance: Vec<[f64; N]>,
+    pub variance: Vec<[T; N]>,
     /// Replicates less one: the degrees of freedom of each variance.
     pub degrees: u32,
 }
@@ -76,11 +76,24 @@ impl<const N: usize> Film<N> {
     /// The picture and the variance of each of its values.
     #[must_use]
     pub fn moments(&self) -> Moments<N> {
+        self.moments_as(|value| value)
+    }
+
+    /// [`Self::moments`] in another type: `narrow` is asked for every value.
+    #[must_use]
+    pub fn moments_as<T: Copy + Default + Send>(
+        &self,
+        narrow: impl Fn(f64) -> T + Sync,
+    ) -> Moments<N, T> {
         let replicates = self.replicates().min(self.spp());
-        // one after the other: both at once would need twice the memory on the way
+        let empty = [T::default(); N];
+        let (mean, variance) = self.map2((empty, empty), |counts, sums| {
+            let (mean, variance) = mean_and_variance(counts, sums);
+            (mean.map(&narrow), variance.map(&narrow))
+        });
         Moments {
-            mean: self.mean(),
-            variance: self.map([0.0; N], |counts, sums| mean_and_variance(counts, sums).1),
+            mean,
+            variance,
             degrees: replicates.saturating_sub(1),
         }
     }

@@ -263,19 +263,32 @@ impl<const N: usize> Film<N> {
         empty: T,
         f: impl Fn(&Counts, &[[f64; N]]) -> T + Sync,
     ) -> Vec<T> {
+        self.map2((empty, ()), |counts, sums| (f(counts, sums), ()))
+            .0
+    }
+
+    /// Two values a pixel, as [`Self::map`].
+    pub(crate) fn map2<A: Clone + Send, B: Clone + Send>(
+        &self,
+        empty: (A, B),
+        f: impl Fn(&Counts, &[[f64; N]]) -> (A, B) + Sync,
+    ) -> (Vec<A>, Vec<B>) {
         let width = self.width as usize;
-        let mut out = vec![empty; width * self.height as usize];
-        let bands = out.par_chunks_mut(width * TILE as usize);
+        let pixels = width * self.height as usize;
+        let (mut a, mut b) = (vec![empty.0; pixels], vec![empty.1; pixels]);
+        let band = width * TILE as usize;
+        let bands = a.par_chunks_mut(band).zip(b.par_chunks_mut(band));
         let rows = self.squares.par_chunks(width.div_ceil(TILE as usize));
-        bands.zip(rows).for_each(|(band, squares)| {
+        bands.zip(rows).for_each(|((a, b), squares)| {
             for tile in squares.iter().map(|square| self.tile(square)) {
                 let counts = tile.counts();
                 for ((x, y), sums) in tile.pixels().zip(tile.by_pixel()) {
-                    band[(y % TILE) as usize * width + x as usize] = f(&counts, sums);
+                    let at = (y % TILE) as usize * width + x as usize;
+                    (a[at], b[at]) = f(&counts, sums);
                 }
             }
         });
-        out
+        (a, b)
     }
 }
 
@@ -345,20 +358,23 @@ impl<const N: usize> TileMut<'_, N> {
         self.square.pixels()
     }
 
-    /// Adds sample number `sample` of every pixel.
-    pub(crate) fn add(&mut self, sample: u32, light: impl Iterator<Item = [f32; N]>) {
-        let replicates = self.square.replicates as usize;
-        let r = (sample % self.square.replicates) as usize;
-        for (sums, light) in self.sums.chunks_exact_mut(replicates).zip(light) {
-            for c in 0..N {
-                sums[r][c] += f64::from(light[c]);
+    /// Adds `count` samples of every pixel, of which the first has number `first`: `light(i, pixel)` is the light of the
+    /// `i`-th. Pixel by pixel, since the sums of a pixel are neighbours.
+    #[inline(always)]
+    pub(crate) fn add(&mut self, first: u32, count: u32, light: impl Fn(u32, usize) -> [f32; N]) {
+        let replicates = self.square.replicates;
+        let pixels = self.sums.chunks_exact_mut(replicates as usize);
+        for (pixel, sums) in pixels.enumerate() {
+            let mut r = first % replicates;
+            for i in 0..count {
+                let light = light(i, pixel);
+                for c in 0..N {
+                    sums[r as usize][c] += f64::from(light[c]);
+                }
+                r = if r + 1 == replicates { 0 } else { r + 1 };
             }
         }
-    }
-
-    /// All samples before number `done` have been added.
-    pub(crate) fn finish(&mut self, done: u32) {
-        (self.square.done, self.square.seen) = (done, Seen(None));
+        (self.square.done, self.square.seen) = (first + count, Seen(None));
     }
 
     /// Looks at the sums while they are in the cache.

@@ -118,7 +118,13 @@ fn a_failing_source_is_an_io_error_with_its_cause() {
 fn cells_that_are_not_there_are_refused() {
     let bytes = merl();
     let reader = MerlReader::new(&bytes[..], 588).unwrap();
-    for (channel, first, count) in [(3, 0, 1), (0, 24, 1), (2, 20, 5), (0, u64::MAX, 2), (1, 0, 25)] {
+    for (channel, first, count) in [
+        (3, 0, 1),
+        (0, 24, 1),
+        (2, 20, 5),
+        (0, u64::MAX, 2),
+        (1, 0, 25),
+    ] {
         let error = reader.read(channel, first, &mut vec![0.0; count]);
         let message = format!(
             "file: values: expected cells of 3 planes of 24, found {count} from number {first} of plane {channel}"

@@ -66,7 +66,9 @@ impl HalfDiffTable {
         }
         let mut nodes = Pages::zeroed(self.layout().nodes() * basis.len());
         let rows = nodes.par_chunks_mut((self.layout().row() * basis.len()).max(1));
-        let olds = self.nodes().par_chunks((self.layout().row() * self.channels()).max(1));
+        let olds = self
+            .nodes()
+            .par_chunks((self.layout().row() * self.channels()).max(1));
         rows.zip(olds).for_each(|(row, olds)| {
             let news = row.chunks_exact_mut(basis.len());
             for (new, old) in news.zip(olds.chunks_exact(self.channels())) {

@@ -8,6 +8,7 @@ use exr::prelude::{
     AnyChannel, AnyChannels, AttributeValue, Blocks, Compression, Encoding, FlatSamples, Image,
     Layer, LayerAttributes, LineOrder, Text, WritableImage,
 };
+use rayon::prelude::*;
 use std::io;
 use std::path::Path;
 
@@ -34,11 +35,10 @@ pub(super) fn write(
     attribute: Option<(&str, AttributeValue)>,
 ) -> Result<(), Error> {
     picture.check().map_err(|e| e.in_file(path))?;
-    let mut channels = planes("", &picture.pixels);
+    let mut channels = planes("", &picture.pixels, |v| v);
     if let Some(variance) = &picture.variance {
-        channels.extend(planes("variance.", variance));
-        let error: Vec<_> = variance.iter().map(|v| v.map(f32::sqrt)).collect();
-        channels.extend(planes("error.", &error));
+        channels.extend(planes("variance.", variance, |v| v));
+        channels.extend(planes("error.", variance, f32::sqrt));
     }
     channels.extend(more);
     let mut attributes = LayerAttributes::default();
@@ -65,12 +65,14 @@ pub(super) fn write(
     })
 }
 
-fn planes(prefix: &str, pixels: &[[f32; 3]]) -> Vec<AnyChannel<FlatSamples>> {
-    ["R", "G", "B"]
-        .iter()
-        .enumerate()
+fn planes(
+    prefix: &str,
+    pixels: &[[f32; 3]],
+    of: impl Fn(f32) -> f32 + Sync,
+) -> Vec<AnyChannel<FlatSamples>> {
+    (["R", "G", "B"].par_iter().enumerate())
         .map(|(c, name)| {
-            let plane = pixels.iter().map(|p| p[c]).collect();
+            let plane = pixels.iter().map(|p| of(p[c])).collect();
             AnyChannel::new(
                 Text::from(format!("{prefix}{name}").as_str()),
                 FlatSamples::F32(plane),

@@ -57,15 +57,12 @@ impl Picture {
     /// # Errors
     /// If the film is larger than any picture may be.
     pub fn of_film(film: &Film<3>) -> Result<Self, Error> {
-        let moments = film.moments();
-        let narrow = |plane: Vec<[f64; 3]>| -> Vec<[f32; 3]> {
-            plane.into_iter().map(|p| p.map(|c| c as f32)).collect()
-        };
+        let moments = film.moments_as(|value| value as f32);
         let picture = Self {
             width: film.width() as usize,
             height: film.height() as usize,
-            pixels: narrow(moments.mean),
-            variance: (film.replicates() > 1).then(|| narrow(moments.variance)),
+            pixels: moments.mean,
+            variance: (film.replicates() > 1).then_some(moments.variance),
             metadata: Metadata {
                 spp: Some(u64::from(film.spp())),
                 ..Metadata::default()

@@ -1,7 +1,9 @@
 //! From scene-linear radiance to what a screen shows.
 
 use super::picture::Picture;
+use rayon::prelude::*;
 use spectrum::{GamutMapping, GamutReport, LUMINANCE_SRGB, srgb_encode};
+use std::sync::LazyLock;
 
 /// One factor, then what becomes of colours out of gamut, then clamping to [0, 1], then the sRGB curve [Iec61966].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,7 +28,7 @@ impl ToneMap {
     pub fn auto(picture: &Picture) -> Self {
         let mut lit: Vec<f64> = picture
             .pixels
-            .iter()
+            .par_iter()
             .map(|p| luminance(*p))
             .filter(|y| *y > 0.0 && y.is_finite())
             .collect();
@@ -65,7 +67,80 @@ fn luminance(p: [f32; 3]) -> f64 {
 /// One linear value in [0, 1] as an 8-bit sRGB code value; others are clamped, NaN is 0.
 #[must_use]
 pub fn to_srgb8(linear: f32) -> u8 {
-    let encoded = srgb_encode(f64::from(linear.clamp(0.0, 1.0)));
-    // `as` saturates and turns NaN into 0
-    (encoded * 255.0 + 0.5) as u8
+    static CODES: LazyLock<Codes> = LazyLock::new(Codes::new);
+    CODES.of(linear)
+}
+
+/// Where each code value begins: the same as the curve, without its power for every value.
+struct Codes {
+    /// The least bits of a value that is shown as `k` or more; the last is above all.
+    first: [u32; 257],
+    /// What the value with these leading bits and zeros behind them is shown as.
+    start: Vec<u8>,
+}
+
+/// Bits behind the leading ones: at most one code value begins among values that share the others.
+const BEHIND: u32 = 16;
+
+impl Codes {
+    fn new() -> Self {
+        let one = 1.0_f32.to_bits();
+        let mut first = [u32::MAX; 257];
+        first[0] = 0;
+        for k in 1..=255_u8 {
+            // bits of positive floats are in their order
+            let (mut low, mut high) = (first[usize::from(k) - 1], one);
+            while low < high {
+                let middle = low.midpoint(high);
+                if by_curve(f32::from_bits(middle)) >= k {
+                    high = middle;
+                } else {
+                    low = middle + 1;
+                }
+            }
+            first[usize::from(k)] = low;
+        }
+        let code = |bits: u32| (first.partition_point(|f| *f <= bits) - 1) as u8;
+        let start = (0..=one >> BEHIND)
+            .map(|lead| code(lead << BEHIND))
+            .collect();
+        Self { first, start }
+    }
+
+    fn of(&self, linear: f32) -> u8 {
+        // NaN and -0 become 0
+        let bits = if linear > 0.0 {
+            linear.min(1.0).to_bits()
+        } else {
+            0
+        };
+        let start = self.start[(bits >> BEHIND) as usize];
+        start + u8::from(self.first[usize::from(start) + 1] <= bits)
+    }
+}
+
+/// A value in [0, 1] by the curve itself.
+fn by_curve(linear: f32) -> u8 {
+    (srgb_encode(f64::from(linear)) * 255.0 + 0.5) as u8
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_are_those_of_the_curve() {
+        for bits in (0..=1.0_f32.to_bits()).step_by(997) {
+            let v = f32::from_bits(bits);
+            assert_eq!(to_srgb8(v), by_curve(v), "{v}");
+        }
+        for first in &Codes::new().first[1..256] {
+            for bits in first - 1..=first + 1 {
+                let v = f32::from_bits(bits).min(1.0);
+                assert_eq!(to_srgb8(v), by_curve(v), "{v}");
+            }
+        }
+        let clamped = [f32::NAN, -0.0, -1.0, f32::INFINITY, 2.0];
+        assert_eq!(clamped.map(to_srgb8), [0, 0, 0, 255, 255]);
+    }
 }

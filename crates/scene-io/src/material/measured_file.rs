@@ -151,11 +151,7 @@ fn parsed(file: &File, of: Origin, options: &MaterialOptions) -> Result<LoadedMe
         return scattered::load(file.format(), of, &cloud?, options);
     }
     match file {
-        File::Merl(merl_file) => merl(
-            (file.format(), of),
-            merl_file.as_bytes(),
-            options,
-        ),
+        File::Merl(merl_file) => merl((file.format(), of), merl_file.as_bytes(), options),
         File::Rgl(file_rgl) => rgl((file.format(), of), file_rgl, options),
         _ => Err(Error::unsupported(format!(
             "{} files are read but cannot be rendered yet",

@@ -95,7 +95,9 @@ fn measure(description: Description<1>, strategy: Strategy, replicates: u32) -> 
     };
     let stats = render(&scene, &settings, &mut film, &()).unwrap();
     let means = |r: usize| {
-        let sums = film.tiles().flat_map(|t| t.sums().chunks(replicates as usize));
+        let sums = film
+            .tiles()
+            .flat_map(|t| t.sums().chunks(replicates as usize));
         sums.map(|pixel| pixel[r][0]).sum::<f64>() / (36.0 * f64::from(SPP))
     };
     let all: Replicates = (0..replicates as usize).map(means).collect();
