@@ -4,7 +4,8 @@
 Needs `pip install mitsuba numpy` and an LLVM library. The scene is built from docs/scenes.md and the numbers of
 scenes/benchmark/scene.ron. MERL files go through a BSDF in Python: nearest cell, cosine sampling, as there is no plugin
 for them. Prints one JSON object: for two numbers of samples, the seconds of one image and its mean squared error, from
-pairs of independent images: mean (A - B)^2 / 2; and writes the mean of all images.
+pairs of independent images: mean (A - B)^2 / 2; and writes the mean of all images. With --once it renders and writes one
+image, as a user would, and prints nothing.
 """
 import argparse
 import json
@@ -112,6 +113,7 @@ def main():
     p.add_argument("--pairs", type=int, default=4)
     p.add_argument("--threads", type=int, default=2)
     p.add_argument("--variant", default="llvm_ad_rgb")
+    p.add_argument("--once", action="store_true", help="one image of --spp samples and nothing else")
     p.add_argument("--out", required=True, help="EXR for the mean of all images")
     a = p.parse_args()
 
@@ -121,6 +123,9 @@ def main():
     mi.set_variant(a.variant)
     register_merl(mi, dr)
     s = scene(mi, a)
+    if a.once:
+        mi.Bitmap(mi.render(s, spp=a.spp, seed=0)).write(a.out)
+        return
     seed, total, weight, rows = 0, 0, 0, []
     for spp in (max(1, a.spp // 4), a.spp):
         np.array(mi.render(s, spp=spp, seed=9_000_000 + spp))  # compiles the kernel: not counted

@@ -3,6 +3,8 @@
 //! Mitsuba's error comes from pairs of independent images, at two numbers of samples, and falls as 1/spp; ours from
 //! `gonio converge`. Both render the same file in the same size with as many threads, one after the other.
 
+mod paired;
+
 use crate::repo;
 use anyhow::{Context, Result, bail};
 use serde::Deserialize;
@@ -10,12 +12,15 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 const HELP: &str = "cargo xtask compare mitsuba --data DIR [--rows NAME,...] [--lights area,env] [--size WxH] [--seconds S] [--pairs N]
-DIR holds the .bsdf and .binary files of the rows; needs python3 with mitsuba. Prints a table.";
+cargo xtask compare mitsuba --stage from-start|steady --data DIR [--rows NAME,...] [--size WxH] [--pairs N]
+DIR holds the .bsdf and .binary files of the rows; needs python3 with mitsuba. Prints a table.
+from-start: seconds of the whole process at 16 samples a pixel; steady: paths/s and efficiency at 64; in turn, by pairs.";
 
 /// Relative RMSE whose times are compared.
 const TARGET: f64 = 0.01;
+type Row = (&'static str, Option<&'static str>, u32, &'static str);
 /// Name, file (none: the model), samples a pixel of the peer's longer images, and our method.
-const ROWS: &[(&str, Option<&str>, u32, &str)] = &[
+const ROWS: &[Row] = &[
     ("ggx-copper", None, 64, "native"),
     (
         "cc-ibiza-sunset",
@@ -47,6 +52,7 @@ const ROWS: &[(&str, Option<&str>, u32, &str)] = &[
 ];
 
 struct Asked {
+    stage: Option<String>,
     data: Vec<PathBuf>,
     rows: Vec<String>,
     lights: Vec<String>,
@@ -85,15 +91,19 @@ pub(crate) fn run(args: &[String]) -> Result<()> {
     }
     let asked = parse(&args[1..])?;
     crate::gonio::build()?;
+    match asked.stage.as_deref() {
+        None => {}
+        Some("from-start") => return paired::from_start(&asked),
+        Some("steady") => return paired::steady(&asked),
+        Some(other) => bail!("unknown stage {other}\n{HELP}"),
+    }
     println!(
         "| material | light | ours: s to 1 % | Mpaths/s | Mitsuba: s to 1 % | Mpaths/s | MSE x spp, 1/4 of the spp over all | \
          ratio (95 %) | means apart |\n|---|---|---:|---:|---:|---:|---:|---:|---:|"
     );
     for light in &asked.lights {
-        for (name, file, spp, method) in ROWS {
-            if asked.rows.is_empty() || asked.rows.iter().any(|r| r == name) {
-                row(&asked, light, (name, *file, *spp, method))?;
-            }
+        for (name, file, spp, method) in asked.rows() {
+            row(&asked, light, (name, *file, *spp, method))?;
         }
     }
     Ok(())
@@ -101,6 +111,7 @@ pub(crate) fn run(args: &[String]) -> Result<()> {
 
 fn parse(args: &[String]) -> Result<Asked> {
     let mut asked = Asked {
+        stage: None,
         data: Vec::new(),
         rows: Vec::new(),
         lights: vec!["area".into(), "env".into()],
@@ -117,6 +128,7 @@ fn parse(args: &[String]) -> Result<Asked> {
             "--data" => asked.data.push(value.into()),
             "--rows" => asked.rows = list(),
             "--lights" => asked.lights = list(),
+            "--stage" => asked.stage = Some(value.clone()),
             "--seconds" => asked.seconds.clone_from(value),
             "--pairs" => asked.pairs.clone_from(value),
             "--size" => {
@@ -129,27 +141,50 @@ fn parse(args: &[String]) -> Result<Asked> {
     Ok(asked)
 }
 
+impl Asked {
+    /// The rows that were asked for.
+    fn rows(&self) -> impl Iterator<Item = &'static Row> {
+        let wanted = |name| self.rows.is_empty() || self.rows.iter().any(|r| r == name);
+        ROWS.iter().filter(move |row| wanted(row.0))
+    }
+
+    /// Where the file of a row is.
+    fn path(&self, file: Option<&str>) -> Result<Option<PathBuf>> {
+        let Some(file) = file else {
+            return Ok(None);
+        };
+        let mut places = self.data.iter().map(|d| d.join(file));
+        let found = places.find(|p| p.exists());
+        (found.map(Some)).with_context(|| format!("{file} is in no --data folder"))
+    }
+
+    /// The peer at work on `material`, without what differs between stages.
+    fn peer(&self, light: &str, material: Option<&Path>) -> Command {
+        let mut command = Command::new("python3");
+        command
+            .arg(repo::root().join("xtask/peers/mitsuba3.py"))
+            .arg("--material")
+            .arg(material.unwrap_or(Path::new("ggx")))
+            .args(["--light", light, "--threads", "2"])
+            .args(["--width", &self.size.0, "--height", &self.size.1]);
+        command
+    }
+}
+
+/// A folder for what is rendered.
+fn folder(name: &str) -> Result<PathBuf> {
+    let folder = repo::root().join("target/compare").join(name);
+    std::fs::create_dir_all(&folder)?;
+    Ok(folder)
+}
+
 fn row(
     asked: &Asked,
     light: &str,
     (name, file, spp, method): (&str, Option<&str>, u32, &str),
 ) -> Result<()> {
-    let path = match file {
-        None => None,
-        Some(file) => {
-            let places = asked.data.iter().map(|d| d.join(file));
-            Some(
-                places
-                    .into_iter()
-                    .find(|p| p.exists())
-                    .with_context(|| format!("{file} is in no --data folder"))?,
-            )
-        }
-    };
-    let folder = repo::root()
-        .join("target/compare")
-        .join(format!("{name}-{light}"));
-    std::fs::create_dir_all(&folder)?;
+    let path = asked.path(file)?;
+    let folder = folder(&format!("{name}-{light}"))?;
     let peer = mitsuba(asked, light, path.as_deref(), (spp, &folder))?;
     let ours = gonio(asked, light, path.as_deref(), (method, &folder))?;
     let curve = &ours["curves"][0];
@@ -206,43 +241,27 @@ fn mitsuba(
     material: Option<&Path>,
     (spp, folder): (u32, &Path),
 ) -> Result<Peer> {
-    let script = repo::root().join("xtask/peers/mitsuba3.py");
-    let output = Command::new("python3")
-        .arg(script)
-        .arg("--material")
-        .arg(material.unwrap_or(Path::new("ggx")))
-        .args([
-            "--light",
-            light,
-            "--width",
-            &asked.size.0,
-            "--height",
-            &asked.size.1,
-        ])
-        .args([
-            "--spp",
-            &spp.to_string(),
-            "--pairs",
-            &asked.pairs,
-            "--threads",
-            "2",
-            "--out",
-        ])
-        .arg(folder.join("mitsuba.exr"))
-        .output()
-        .context("cannot start python3")?;
-    if !output.status.success() {
-        bail!(
-            "the peer failed: {}",
-            String::from_utf8_lossy(&output.stderr)
-        );
-    }
-    let peer: Peer = serde_json::from_slice(&output.stdout).context("the peer printed no JSON")?;
+    let mut command = asked.peer(light, material);
+    command
+        .args(["--spp", &spp.to_string(), "--pairs", &asked.pairs, "--out"])
+        .arg(folder.join("mitsuba.exr"));
+    let peer: Peer =
+        serde_json::from_slice(&said(&mut command)?).context("the peer printed no JSON")?;
     eprintln!(
         "mitsuba {} {}, mean {:.5}",
         peer.version, peer.variant, peer.mean
     );
     Ok(peer)
+}
+
+/// What the peer prints.
+fn said(command: &mut Command) -> Result<Vec<u8>> {
+    let output = command.output().context("cannot start python3")?;
+    if !output.status.success() {
+        let said = String::from_utf8_lossy(&output.stderr);
+        bail!("the peer failed: {said}");
+    }
+    Ok(output.stdout)
 }
 
 fn gonio(

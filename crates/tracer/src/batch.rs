@@ -188,25 +188,10 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
     /// Adds the light that rays met, and sorts the paths that go on by material.
     #[inline(always)]
     fn meet(&mut self, kernel: &Kernel<'_, N, S>, depth: u32) {
-        let geometry = &kernel.scene.geometry;
-        let end = kernel.scene.materials.len() as u32;
-        let last = depth == kernel.max_depth;
-        let nothing = kernel.sides.len() - 1;
-        let mut met = 0;
-        for i in 0..self.paths.len {
-            let (hits, k) = (&self.hits[i / LANES], i % LANES);
-            let prim = hits.prim[k];
-            let side = if prim == NONE {
-                nothing
-            } else {
-                (2 * geometry.object(prim) + hits.back[k]) as usize
-            };
-            let code = kernel.sides[side];
-            let bucket = if last { end } else { code & !SHINES };
-            self.bucket[i] = bucket;
-            self.met[met] = i as u32;
-            met += usize::from(code & SHINES != 0);
-        }
+        let met = match &kernel.scene.geometry.bvh {
+            None => self.look_up(kernel, depth, |side| side),
+            Some(_) => self.look_up(kernel, depth, |side| kernel.side(side)),
+        };
         if depth == 0 || kernel.count_met {
             for n in 0..met {
                 self.meet_light(kernel, depth, self.met[n] as usize);
@@ -219,16 +204,46 @@ impl<const N: usize, S: Mode<N>> Workspace<N, S> {
         }
     }
 
+    /// What each path met: its bucket, and which met a light; how many these are. `of` finds the entry of
+    /// [`Kernel::sides`] from twice the primitive and its back.
+    #[inline(always)]
+    fn look_up(&mut self, kernel: &Kernel<'_, N, S>, depth: u32, of: impl Fn(u64) -> u64) -> usize {
+        let end = kernel.scene.materials.len() as u32;
+        let last = depth == kernel.max_depth;
+        let sides = &kernel.sides[..];
+        let nothing = sides.len() - 1;
+        let bucket = &mut self.bucket[..self.paths.len];
+        let met = &mut self.met[..bucket.len()];
+        let mut count = 0;
+        for (block, (bucket, hits)) in bucket.chunks_mut(LANES).zip(&self.hits).enumerate() {
+            for (k, bucket) in bucket.iter_mut().enumerate() {
+                // NONE, doubled, is beyond all sides
+                let side = 2 * u64::from(hits.prim[k]) + u64::from(hits.back[k]);
+                let code = sides[of(side).min(nothing as u64) as usize];
+                *bucket = if last { end } else { code & !SHINES };
+                if let Some(next) = met.get_mut(count) {
+                    *next = (block * LANES + k) as u32;
+                }
+                count += usize::from(code & SHINES != 0);
+            }
+        }
+        count
+    }
+
     /// One pass a material: no count waits for the one stored before it.
     #[inline(always)]
     fn order_few(&mut self) {
         let bucket = &self.bucket[..self.paths.len];
+        let order = &mut self.order[..bucket.len()];
         let mut at = 0;
         // the last bucket holds paths that end
         let materials = self.ends.len() - 1;
         for (material, end) in self.ends[..materials].iter_mut().enumerate() {
             for (i, own) in bucket.iter().enumerate() {
-                self.order[at.min(bucket.len() - 1)] = i as u32;
+                // none to spare once all are placed
+                if let Some(next) = order.get_mut(at) {
+                    *next = i as u32;
+                }
                 at += usize::from(*own == material as u32);
             }
             *end = at;

@@ -6,7 +6,7 @@ use crate::light::Lights;
 use crate::math::mix;
 use crate::mode::Mode;
 use crate::path::NONE;
-use crate::scene::Scene;
+use crate::scene::{Scene, Surface};
 use crate::settings::{Settings, Strategy};
 use sampling::Points;
 
@@ -41,8 +41,8 @@ pub(crate) struct Kernel<'a, const N: usize, S: Mode<N>> {
     pub(crate) weigh: bool,
     /// Points on lights a vertex looks at for its one shadow ray.
     pub(crate) candidates: usize,
-    /// Where paths go that meet the front or the back of an object (entries 2 i and 2 i + 1), or nothing (the last):
-    /// a material, or as many as there are for the end; plus [`SHINES`] where light is met.
+    /// Where paths go that meet the front or the back (entries 2 i and 2 i + 1) of an analytic primitive, then of an object,
+    /// or nothing (the last): a material, or as many as there are for the end; plus [`SHINES`] where light is met.
     pub(crate) sides: Vec<u32>,
 }
 
@@ -84,6 +84,18 @@ impl<'a, const N: usize, S: Mode<N>> Kernel<'a, N, S> {
         }
     }
 
+    /// The entry of [`Self::sides`] for twice a primitive and its back, where the scene has triangles.
+    #[inline(always)]
+    pub(crate) fn side(&self, side: u64) -> u64 {
+        let geometry = &self.scene.geometry;
+        let analytic = 2 * geometry.objects.len() as u64;
+        if side < analytic {
+            return side;
+        }
+        let triangle = (geometry.triangles).get(((side - analytic) / 2) as usize);
+        triangle.map_or(u64::MAX, |t| analytic + 2 * u64::from(t.object) + side % 2)
+    }
+
     /// Dimension pair of use `part` at the vertex number `depth`.
     #[inline(always)]
     pub(crate) fn dimension(depth: u32, part: u32) -> u32 {
@@ -113,10 +125,14 @@ impl<'a, const N: usize, S: Mode<N>> Kernel<'a, N, S> {
 fn sides<const N: usize, S: Mode<N>>(scene: &Scene<N, S>) -> Vec<u32> {
     let end = scene.materials.len() as u32;
     let shine = |light: bool| if light { SHINES } else { 0 };
-    let objects = scene.surfaces.iter().flat_map(|s| {
+    let of = |s: &Surface| {
         let back = if s.one_sided { end } else { s.material };
         [s.material | shine(s.light != NONE), back]
-    });
+    };
+    let analytic = scene.geometry.objects.iter();
+    let analytic = analytic.flat_map(|object| of(&scene.surfaces[*object as usize]));
     let nothing = end | shine(scene.environment.is_some());
-    objects.chain([nothing]).collect()
+    (analytic.chain(scene.surfaces.iter().flat_map(of)))
+        .chain([nothing])
+        .collect()
 }

@@ -21,7 +21,7 @@ pub(super) struct Slab<'a> {
 }
 
 /// Widens the far end of a slab by the rounding of its two operations, here and of the near end [Pharr2023].
-const WIDER: f32 = 1.0 + 4.0 * f32::EPSILON;
+pub(super) const WIDER: f32 = 1.0 + 4.0 * f32::EPSILON;
 
 impl Lanes8 {
     pub(super) fn detect() -> Self {

@@ -6,19 +6,19 @@ mod lanes;
 mod traverse;
 mod tree;
 
-use crate::math::U;
+use crate::math::{F, U};
 use crate::path::{HitLanes, RayLanes};
 use crate::shape::{ShearedRay, Triangle};
 use block::{Block, WIDTH};
 use brdf::{LANES, Pages};
 use glam::Vec3;
-use lanes::Lanes8;
+use lanes::{Lanes8, WIDER};
 use obvhs::BvhBuildParams;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::ploc::PlocBuilder;
 use obvhs::triangle::Triangle as BoxedTriangle;
-use traverse::{Stack, Tree, TreeRay};
+use traverse::{Stack, Tree, TreeRay, slack};
 use tree::{Node, Opener};
 
 /// Triangles in blocks, the tree's leaves. The index of a triangle is [`WIDTH`] times its block and its lane.
@@ -30,6 +30,8 @@ pub(crate) struct Bvh {
     nodes: Pages<Node>,
     blocks: Pages<Block>,
     lanes: Lanes8,
+    /// Low and high corner of the box around everything, scaled.
+    bounds: [Vec3; 2],
     scale: f32,
     unscale: f32,
 }
@@ -66,7 +68,9 @@ impl Bvh {
         let blocks: Vec<_> = (wide.leaves.iter())
             .map(|leaf| Block::new(leaf.iter().filter_map(member)))
             .collect();
+        let none = [Vec3::INFINITY, Vec3::NEG_INFINITY];
         let bvh = Self {
+            bounds: wide.nodes.first().map_or(none, Node::bounds),
             nodes: Pages::from(wide.nodes),
             blocks: Pages::from(blocks),
             lanes: Lanes8::detect(),
@@ -109,9 +113,7 @@ impl Bvh {
 
     /// Low and high corner of the box around everything.
     pub(crate) fn bounds(&self) -> [Vec3; 2] {
-        let none = [Vec3::INFINITY, Vec3::NEG_INFINITY];
-        let all = self.nodes.first().map_or(none, Node::bounds);
-        all.map(|corner| corner * self.unscale)
+        self.bounds.map(|corner| corner * self.unscale)
     }
 
     /// Shortens each ray that is still on its way to the nearest triangle it meets, other than the one it left.
@@ -119,8 +121,9 @@ impl Bvh {
     #[inline(always)]
     pub(crate) fn closest(&self, rays: &RayLanes, first: u32, hits: &mut HitLanes) {
         let (tree, mut stack) = (self.tree(), Stack::new());
+        let near = self.near(rays, &hits.t);
         for k in 0..LANES {
-            if hits.t[k] > 0.0 {
+            if near[k] != 0 {
                 let d = rays.d.get(k);
                 let ray = TreeRay::new(rays.o.get(k) * self.scale, d);
                 let skip = (rays.from[k] >> 1).wrapping_sub(first);
@@ -138,14 +141,45 @@ impl Bvh {
     #[inline(always)]
     pub(crate) fn blocked(&self, rays: &RayLanes, first: u32, target: &U, blocked: &mut U) {
         let mut stack = Stack::new();
+        let near = self.near(rays, &rays.t_max);
         for k in 0..LANES {
-            if blocked[k] == 0 && rays.t_max[k] > 0.0 {
+            if blocked[k] == 0 && near[k] != 0 {
                 let ray = TreeRay::new(rays.o.get(k) * self.scale, rays.d.get(k));
                 let skip = [rays.from[k] >> 1, target[k]].map(|i| i.wrapping_sub(first));
                 let t_max = rays.t_max[k] * self.scale;
                 blocked[k] = u32::from((self.tree()).blocked(&ray, t_max, skip, &mut stack));
             }
         }
+    }
+
+    /// 1 in each lane whose ray may come into the box around everything before `t_max`: the test of a node, so that it
+    /// misses no ray that the root does not, for all lanes at once.
+    #[inline(always)]
+    fn near(&self, rays: &RayLanes, t_max: &F) -> U {
+        let o = [&rays.o.x, &rays.o.y, &rays.o.z].map(|axis| axis.map(|x| x * self.scale));
+        let d = [&rays.d.x, &rays.d.y, &rays.d.z];
+        let [low, high] = self.bounds.map(|corner| corner.to_array());
+        let mut out = [0; LANES];
+        for k in 0..LANES {
+            let size = o[0][k].abs().max(o[1][k].abs()).max(o[2][k].abs());
+            let slack = slack(size);
+            let (mut enters, mut leaves) = (0.0_f32, t_max[k] * self.scale);
+            for axis in 0..3 {
+                let inverse = 1.0 / d[axis][k];
+                let back = inverse.is_sign_negative();
+                let (first, last) = if back {
+                    (high[axis], low[axis])
+                } else {
+                    (low[axis], high[axis])
+                };
+                let along = slack.copysign(inverse);
+                // a NaN bounds nothing
+                enters = enters.max((first - (o[axis][k] + along)) * inverse);
+                leaves = leaves.min((last - (o[axis][k] - along)) * inverse);
+            }
+            out[k] = u32::from((t_max[k] > 0.0) & (enters <= leaves * WIDER));
+        }
+        out
     }
 
     #[inline(always)]

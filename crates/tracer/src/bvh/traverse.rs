@@ -18,6 +18,12 @@ const SLACK: f32 = 5.0 * f32::EPSILON;
 /// No scaled coordinate is larger.
 const LARGEST: f32 = 2.0;
 
+/// By how much boxes are widened for a ray whose origin has `size` as its largest coordinate.
+#[inline(always)]
+pub(super) fn slack(size: f32) -> f32 {
+    SLACK * (size + LARGEST)
+}
+
 /// What is left for later: the entry distance's bits above, the child below. Distances are not negative, so that
 /// their bits are in order.
 pub(super) struct Stack {
@@ -84,7 +90,7 @@ impl TreeRay {
     #[inline(always)]
     pub(super) fn new(o: Vec3, d: Vec3) -> Self {
         let inverse = d.to_array().map(|x| 1.0 / x);
-        let slack = SLACK * (o.abs().max_element() + LARGEST);
+        let slack = slack(o.abs().max_element());
         let along = inverse.map(|x| slack.copysign(x));
         Self {
             o: [o + Vec3::from(along), o - Vec3::from(along)].map(|o| o.to_array()),
