@@ -65,7 +65,11 @@ impl Shares {
             Some(_) => 1.0 / count,
             None => 0.0,
         };
-        let shares: Vec<f64> = powers.iter().map(share).collect();
+        Self::of(&powers.iter().map(share).collect::<Vec<_>>())
+    }
+
+    /// From probabilities that sum to 1, up to rounding.
+    fn of(shares: &[f64]) -> Self {
         let mut sum = 0.0;
         let mut cdf: Vec<f32> = shares
             .iter()
@@ -286,6 +290,16 @@ mod tests {
                 let chosen = shares.sample(u);
                 assert!(shares.probabilities[chosen] > 0.0, "{chosen} of {count}");
             }
+        }
+    }
+
+    /// As the sums of very many shares may be.
+    #[test]
+    fn a_sum_rounded_below_one_leaves_nothing_to_what_is_kept_out() {
+        let largest = 1.0 - f32::EPSILON / 2.0;
+        for rounded in [1e-7, 1e-6] {
+            let shares = Shares::of(&[0.0, 0.25, 0.75 - rounded, 0.0, 0.0]);
+            assert_eq!([0.0, 0.25, largest].map(|u| shares.sample(u)), [1, 2, 2]);
         }
     }
 }
