@@ -137,6 +137,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             };
             let target = Target {
                 f: &f,
+                lanes: None,
                 symmetry: table.symmetry(),
             };
             let start = Instant::now();

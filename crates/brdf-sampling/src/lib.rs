@@ -44,6 +44,6 @@ pub use rejection_cache::{CacheError, Proposal, RejectionCache};
 pub use report::{
     OFF_GRID, SHOWN_DEG, SamplerCost, SamplerReport, off_grid_deg, sampler_cost, sampler_report,
 };
-pub use target::Target;
+pub use target::{Target, TargetLanes};
 pub use uniform::Uniform;
 pub use variance::{RelativeVariance, relative_variance, relative_variance_for};

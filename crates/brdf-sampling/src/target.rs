@@ -1,10 +1,13 @@
 //! What a sampler is built for: a reflectance as one non-negative number.
 
-use brdf::Symmetry;
+use brdf::{LANES, Lanes3, Symmetry};
 use glam::DVec3;
 use sampling::Rng;
 use std::f64::consts::TAU;
 use std::fmt;
+
+/// f(wi, wo) in 1/sr for a packet of pairs, called from several threads at once.
+pub type TargetLanes<'a> = dyn Fn(&Lanes3, &Lanes3) -> [f32; LANES] + Sync + 'a;
 
 /// A reflectance reduced to one number, f(wi, wo) in 1/sr **without** the cosine, such as luminance.
 ///
@@ -13,6 +16,8 @@ use std::fmt;
 pub struct Target<'a> {
     /// f(wi, wo), called from several threads at once.
     pub f: &'a (dyn Fn(DVec3, DVec3) -> f64 + Sync),
+    /// The same in f32 for the [`LANES`] pairs of a packet, if there is such a form: half-vector tables are built by it.
+    pub lanes: Option<&'a TargetLanes<'a>>,
     /// The symmetries of `f`; samplers use `isotropic` alone.
     pub symmetry: Symmetry,
 }
@@ -22,6 +27,7 @@ impl<'a> Target<'a> {
     pub fn new(f: &'a (dyn Fn(DVec3, DVec3) -> f64 + Sync)) -> Self {
         Self {
             f,
+            lanes: None,
             symmetry: Symmetry::FULL,
         }
     }
@@ -31,6 +37,30 @@ impl<'a> Target<'a> {
     #[must_use]
     pub fn f_cos(&self, wi: DVec3, wo: DVec3) -> f64 {
         sanitised(self.f, wi, wo)
+    }
+
+    /// [`Self::f_cos`] for a packet.
+    pub(crate) fn f_cos_lanes(&self, wi: &Lanes3, wo: &Lanes3) -> [f64; LANES] {
+        let mut out = [0.0; LANES];
+        match self.lanes {
+            Some(lanes) => {
+                let f = lanes(wi, wo);
+                for k in 0..LANES {
+                    let (above, g) = (wi.z[k] > 0.0 && wo.z[k] > 0.0, f[k] * wi.z[k]);
+                    out[k] = if above && g > 0.0 && g.is_finite() {
+                        f64::from(g)
+                    } else {
+                        0.0
+                    };
+                }
+            }
+            None => {
+                for k in 0..LANES {
+                    out[k] = self.f_cos(wi.get(k).as_dvec3(), wo.get(k).as_dvec3());
+                }
+            }
+        }
+        out
     }
 
     /// What turning both directions about the normal does to f. The half turn, which [`Symmetry`] does not name, is

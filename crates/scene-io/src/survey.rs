@@ -136,6 +136,7 @@ impl Visitor for Measuring<'_> {
         let f = |wi: DVec3, wo: DVec3| luminance(self.brdf, wi, wo);
         let target = Target {
             f: &f,
+            lanes: None,
             symmetry: self.brdf.symmetry(),
         };
         let probe = cost::probe(&sampler);

@@ -14,8 +14,10 @@ mod options;
 mod problem;
 mod shape;
 mod slices;
+mod sweep;
 mod table;
 mod validation;
+mod view;
 
 pub use options::{HvtOptions, MAX_B, Preset};
 
@@ -96,7 +98,7 @@ impl Hvt {
             r0,
             scale2: [r0 * r0, 1.0 / (r0 * r0)],
             predicted,
-            arch: Arch::new(),
+            arch: brdf::arch(),
         }
     }
 

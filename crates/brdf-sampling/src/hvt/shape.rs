@@ -54,13 +54,11 @@ impl Shape {
 
     /// Integral of the bilinear function with the given node values of one slice.
     pub(crate) fn mass(self, values: &[f64]) -> f64 {
-        let mut sum = 0.0;
-        for (i, row) in values.chunks_exact(self.n_b).enumerate() {
-            for (j, v) in row.iter().enumerate() {
-                sum += v * self.hat_mass(i, j);
-            }
-        }
-        sum
+        let rows = values.chunks_exact(self.n_b);
+        let row = |row: &[f64]| row.iter().sum::<f64>() - 0.5 * (row[0] + row[self.n_b - 1]);
+        let sum: f64 = rows.clone().map(row).sum();
+        let [first, last] = [rows.clone().next(), rows.last()].map(|r| r.map_or(0.0, row));
+        (sum - 0.5 * (first + last)) / self.cells() as f64
     }
 
     /// The slices around the viewer `wo` of the given sine. `S` is 2 or 4: without the

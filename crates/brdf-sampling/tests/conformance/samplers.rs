@@ -90,6 +90,7 @@ pub(crate) fn may_waste(name: &str) -> bool {
 pub(crate) fn target(case: &Case) -> Target<'_> {
     Target {
         f: &*case.f,
+        lanes: None,
         symmetry: case.symmetry,
     }
 }

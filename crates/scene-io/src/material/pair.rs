@@ -4,13 +4,14 @@ use crate::cache::{Cache, combine};
 use crate::error::Error;
 use crate::scene::SamplerName;
 use crate::sealed::content_hash;
-use brdf::{Brdf, DirectionSampler, Material, Paired};
+use brdf::{Brdf, DirectionSampler, LANES, Lanes3, Material, Paired};
 use brdf_sampling::{
     Cosine, Dictionary, Hvt, Inversion, InversionOptions, Preset, Rejection, RejectionOptions,
     SharedTarget, Target, Uniform,
 };
 use brdf_table::GriddedN;
 use glam::DVec3;
+use pulp::{Simd, WithSimd};
 use spectrum::LUMINANCE_SRGB;
 use std::sync::Arc;
 use std::time::Instant;
@@ -173,12 +174,34 @@ fn rejection<B: Brdf<3> + 'static>(
 }
 
 /// Builds a sampler for the luminance of `brdf`.
-fn tabulate<S>(brdf: &impl Brdf<3>, build: impl FnOnce(Target<'_>) -> S) -> S {
+fn tabulate<B: Brdf<3>, S>(brdf: &B, build: impl FnOnce(Target<'_>) -> S) -> S {
     let f = |wi, wo| luminance(brdf, wi, wo);
+    let lanes = |wi: &Lanes3, wo: &Lanes3| brdf::arch().dispatch(LuminanceLanes(brdf, wi, wo));
     build(Target {
         f: &f,
+        lanes: Some(&lanes),
         symmetry: brdf.symmetry(),
     })
+}
+
+/// [`luminance`] of a packet.
+struct LuminanceLanes<'a, B>(&'a B, &'a Lanes3, &'a Lanes3);
+
+impl<B: Brdf<3>> WithSimd for LuminanceLanes<'_, B> {
+    type Output = [f32; LANES];
+
+    #[inline(always)]
+    fn with_simd<I: Simd>(self, _: I) -> [f32; LANES] {
+        let f = self.0.eval_lanes(self.1, self.2);
+        let weights = LUMINANCE_SRGB.map(|w| w as f32);
+        let mut sum = [0.0; LANES];
+        for c in 0..3 {
+            for k in 0..LANES {
+                sum[k] += weights[c] * f[c][k];
+            }
+        }
+        sum
+    }
 }
 
 pub(crate) fn luminance(brdf: &(impl Brdf<3> + ?Sized), wi: DVec3, wo: DVec3) -> f64 {
