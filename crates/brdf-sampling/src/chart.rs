@@ -14,7 +14,7 @@
 //!
 //! J = dwi / (da db) = 4 (wo.h) (1/2 d(r^2)/da) (dphi/dq) (2 q_max).
 
-use crate::pseudo_angle::Quarters;
+use crate::pseudo_angle::{self, Ratio, circle, quarters};
 use crate::pseudo_log::{Logarithm, pseudo_exp, pseudo_log};
 use glam::{DVec2, DVec3};
 
@@ -88,32 +88,46 @@ impl Chart {
     /// From the square to the hemisphere.
     #[inline(always)]
     pub(crate) fn forward(&self, ab: DVec2) -> ChartPoint {
+        let (wi, density) = self.direction(
+            ab.x,
+            Ratio {
+                num: 2.0 * ab.y - 1.0,
+                den: 1.0,
+            },
+        );
+        ChartPoint { wi, ab, density }
+    }
+
+    /// wi and 1/J at (a, b), `side` being 2 b - 1.
+    #[inline(always)]
+    pub(crate) fn direction(&self, a: f64, side: Ratio) -> (DVec3, f64) {
         let span = self.span.num / self.span.den;
-        let e = pseudo_exp(ab.x * span);
+        let e = pseudo_exp(a * span);
         let r2 = self.scale2 * e.minus_one;
         let c = 1.0 - 0.5 * r2;
         let s2 = (r2 * (1.0 - 0.25 * r2)).max(0.0);
         let s = s2.sqrt();
         let rim = self.rim([s2, c * c, 1.0], self.sin_o * s * c, self.sin_o);
-        let q = Quarters {
-            num: (2.0 * ab.y - 1.0) * rim.num,
-            ..rim
+        let q = Ratio {
+            num: side.num * rim.num,
+            den: side.den * rim.den,
         };
-        let ([cos_phi, sin_phi], [over, under]) = q.circle();
-        let wo_h = self.sin_o * s * cos_phi + self.cos_o * c;
-        let across = 2.0 * wo_h * s;
+        let phi = circle(q);
+        let (ahead, up) = (self.sin_o * s, self.cos_o * c);
+        let wo_h = ahead * phi.cos + up;
+        // doubled beforehand: what waits for wo.h waits for one product
+        let across = wo_h * (2.0 * s);
         let wi = DVec3::new(
-            across * cos_phi - self.sin_o,
-            across * sin_phi,
-            (2.0 * wo_h * c - self.cos_o).max(MIN_COS),
+            across * phi.cos - self.sin_o,
+            across * phi.sin,
+            (wo_h * (2.0 * c) - self.cos_o).max(MIN_COS),
         );
+        // wo.h as a fraction again, so that this quotient does not wait for the one in phi
+        let wo_h = ahead * phi.x.num + up * phi.x.den;
+        let [over, under] = phi.slope;
         let radial = 4.0 * (self.scale2 + r2) * span * rim.num;
-        let density = (e.slope * rim.den) * under / (radial * (wo_h * over));
-        ChartPoint {
-            wi,
-            ab,
-            density: density.abs().min(MAX_DENSITY),
-        }
+        let density = (e.slope * rim.den) * (over * phi.x.den) / (radial * (wo_h * under));
+        (wi, density.abs().min(MAX_DENSITY))
     }
 
     /// From the hemisphere to the square; `wi` in the frame where wo has azimuth 0, wi.z > 0.
@@ -137,7 +151,7 @@ impl Chart {
         let vx = v.x + AHEAD;
         let rho = ((vx * vx + v.y * v.y) * xy2).sqrt().max(MIN_RHO);
         let (dot, cross) = (h.x * vx + h.y * v.y, h.y * vx - h.x * v.y);
-        let q = Quarters::of(dot, cross.abs(), rho);
+        let q = quarters(dot, cross.abs(), rho);
         let rim = self.rim([xy2, z2, len2], rho * h.z, self.sin_o + AHEAD);
         // wi is above the horizon, so |q| <= q_max; at the rim rounding may say otherwise by far
         let here = q.num * rim.den;
@@ -148,7 +162,7 @@ impl Chart {
             0.5 + (0.5 * here / there).copysign(cross),
         );
         // wo.h = |wi + wo| / 2, q_max = there / (q.den rim.den)
-        let over = (l.slope * self.span.den) * (Quarters::slope(dot, rho) * rim.den);
+        let over = (l.slope * self.span.den) * (pseudo_angle::slope(dot, rho) * rim.den);
         let radial = (2.0 * len) * (self.scale2 + r2) * self.span.num;
         let under = (radial * (l.den * l.den)) * (q.den * there);
         (ab, (over / under).abs().min(MAX_DENSITY))
@@ -158,13 +172,13 @@ impl Chart {
     /// multiple of them; `half_d` is si s c in the same measure, with `si` in whatever measure that has. Seen from the
     /// normal d is 0 and the rim is where n is: a rounding is taken off so that it stays on the inner side.
     #[inline(always)]
-    fn rim(&self, [s2, c2, unit]: [f64; 3], half_d: f64, sin_o: f64) -> Quarters {
+    fn rim(&self, [s2, c2, unit]: [f64; 3], half_d: f64, sin_o: f64) -> Ratio {
         let n = self.cos_o * (s2 - c2) - 1e-15 * unit;
         let d2 = (4.0 * sin_o * sin_o) * (s2 * c2);
         let y = (d2 - n * n).max(0.0).sqrt();
-        let q = Quarters::of(n, y, 2.0 * half_d);
+        let q = quarters(n, y, 2.0 * half_d);
         let least = MIN_RIM * q.den;
-        Quarters {
+        Ratio {
             num: if q.num > least { q.num } else { least },
             ..q
         }

@@ -35,20 +35,20 @@ pub(crate) fn pseudo_exp(l: f32) -> (f32, f32) {
     ((scale - 1.0) + scale * m, (1.0 + m) * d * d * FRAC_1_SQRT_2)
 }
 
-/// [`crate::pseudo_angle::Quarters::of`] in f32: numerator and denominator.
+/// [`crate::pseudo_angle::quarters`] in f32: numerator and denominator.
 #[inline(always)]
 pub(crate) fn quarters(x: f32, y: f32, rho: f32) -> [f32; 2] {
     let den = rho + FRAC_1_SQRT_2 * x.abs();
     [(den - den.copysign(x)) + y.copysign(x), den]
 }
 
-/// [`crate::pseudo_angle::Quarters::slope`] in f32.
+/// [`crate::pseudo_angle::slope`] in f32.
 #[inline(always)]
 pub(crate) fn quarters_slope(x: f32, rho: f32) -> f32 {
     (x.abs() + FRAC_1_SQRT_2 * rho) * rho
 }
 
-/// [`crate::pseudo_angle::Quarters::circle`] in f32: cosine, sine and dphi/dq.
+/// [`crate::pseudo_angle::circle`] in f32: cosine, sine and dphi/dq.
 #[inline(always)]
 pub(crate) fn circle(num: f32, den: f32) -> (f32, f32, f32) {
     let ahead = den - num.abs();

@@ -14,67 +14,88 @@ use std::f64::consts::FRAC_1_SQRT_2;
 /// 1 / sqrt2.
 const BEND: f64 = FRAC_1_SQRT_2;
 
-/// Quarters: `num / den`, den > 0.
+/// `num / den`, den > 0.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Quarters {
+pub(crate) struct Ratio {
     pub(crate) num: f64,
     pub(crate) den: f64,
 }
 
-impl Quarters {
-    /// Of the direction (x, y), y >= 0, of length `rho`: 0 to 2.
-    #[inline(always)]
-    pub(crate) fn of(x: f64, y: f64, rho: f64) -> Self {
-        let den = rho + BEND * x.abs();
-        // counted on from the front, or back from behind; without a branch, for signs are random
-        let num = (den - den.copysign(x)) + y.copysign(x);
-        Self { num, den }
-    }
+/// Quarters of the direction (x, y), y >= 0, of length `rho`: 0 to 2.
+#[inline(always)]
+pub(crate) fn quarters(x: f64, y: f64, rho: f64) -> Ratio {
+    let den = rho + BEND * x.abs();
+    // counted on from the front, or back from behind; without a branch, for signs are random
+    let num = (den - den.copysign(x)) + y.copysign(x);
+    Ratio { num, den }
+}
 
-    /// dq/dphi at the direction of cosine x / rho of which these are the quarters, times den^2.
-    #[inline(always)]
-    pub(crate) fn slope(x: f64, rho: f64) -> f64 {
-        (x.abs() + BEND * rho) * rho
-    }
+/// dq/dphi at the direction of cosine x / rho, times den^2 of its [`quarters`].
+#[inline(always)]
+pub(crate) fn slope(x: f64, rho: f64) -> f64 {
+    (x.abs() + BEND * rho) * rho
+}
 
-    /// Cosine, sine and dphi/dq, the last as a fraction, of quarters from -2 to 2.
-    #[inline(always)]
-    pub(crate) fn circle(self) -> ([f64; 2], [f64; 2]) {
-        let ahead = self.den - self.num.abs();
-        let m = self.den - ahead.abs();
-        let (m2, den2) = (m * m, self.den * self.den);
-        let root = (den2 - 0.5 * m2).sqrt();
-        let x = (self.den * root - BEND * m2) / (den2 + 0.5 * m2);
-        let reach = 1.0 + BEND * x;
-        let y = (m / self.den) * reach;
-        (
-            [x.copysign(ahead), y.copysign(self.num)],
-            [reach * reach, x + BEND],
-        )
+/// A direction in the plane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Circle {
+    pub(crate) cos: f64,
+    pub(crate) sin: f64,
+    /// cos phi again, not yet divided.
+    pub(crate) x: Ratio,
+    /// dq/dphi as a fraction.
+    pub(crate) slope: [f64; 2],
+}
+
+/// The direction at quarters from -2 to 2.
+#[inline(always)]
+pub(crate) fn circle(q: Ratio) -> Circle {
+    let ahead = q.den - q.num.abs();
+    let m = q.den - ahead.abs();
+    let (m2, den2) = (m * m, q.den * q.den);
+    let root = (den2 - 0.5 * m2).sqrt();
+    // |cos phi|
+    let x = Ratio {
+        num: q.den * root - BEND * m2,
+        den: den2 + 0.5 * m2,
+    };
+    let cos = x.num / x.den;
+    let sin = (m / q.den) * (1.0 + BEND * cos);
+    let reach = x.den + BEND * x.num;
+    Circle {
+        cos: cos.copysign(ahead),
+        sin: sin.copysign(q.num),
+        slope: [x.den * (x.num + BEND * x.den), reach * reach],
+        x: Ratio {
+            num: x.num.copysign(ahead),
+            ..x
+        },
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Quarters;
+    use super::{Circle, Ratio, circle, quarters, slope};
     use std::f64::consts::{FRAC_PI_2, PI};
 
     #[test]
     fn goes_there_and_back_near_the_angle() {
         for k in -2000..=2000 {
             let q = f64::from(k) / 1000.0;
-            let ([cos, sin], [over, under]) = Quarters {
+            let there = circle(Ratio {
                 num: 0.7 * q,
                 den: 0.7,
-            }
-            .circle();
+            });
+            let Circle { cos, sin, .. } = there;
+            assert!((there.x.num / there.x.den - cos).abs() < 1e-15, "{q}");
             assert!((cos.hypot(sin) - 1.0).abs() < 1e-15, "unit at {q}");
-            let back = Quarters::of(3.0 * cos, 3.0 * sin.abs(), 3.0);
+            let back = quarters(3.0 * cos, 3.0 * sin.abs(), 3.0);
             let found = back.num / back.den;
             // a few roundings
             assert!((found - q.abs()).abs() < 1e-14, "{q} came back as {found}");
-            let slope = Quarters::slope(3.0 * cos, 3.0) / back.den.powi(2);
-            assert!((over / under * slope - 1.0).abs() < 1e-14, "{q}");
+            let slope = slope(3.0 * cos, 3.0) / back.den.powi(2);
+            let [over, under] = there.slope;
+            assert!((over / under / slope - 1.0).abs() < 1e-14, "{q}");
             let angle = sin.atan2(cos) / FRAC_PI_2;
             assert!((angle - q).abs() < 0.04 || k == -2000, "{q}: {angle}");
         }
@@ -84,9 +105,9 @@ mod tests {
     fn slope_is_the_derivative_across_quadrants() {
         for k in 1..200 {
             let phi = f64::from(k) * PI / 200.0;
-            let at = |phi: f64| Quarters::of(phi.cos(), phi.sin(), 1.0);
+            let at = |phi: f64| quarters(phi.cos(), phi.sin(), 1.0);
             let value = |phi: f64| at(phi).num / at(phi).den;
-            let slope = Quarters::slope(phi.cos(), 1.0) / at(phi).den.powi(2);
+            let slope = slope(phi.cos(), 1.0) / at(phi).den.powi(2);
             let numeric = (value(phi + 1e-6) - value(phi - 1e-6)) / 2e-6;
             // second differences: 1e-12, cancellation 1e-10
             assert!((numeric - slope).abs() < 1e-8, "{phi}");

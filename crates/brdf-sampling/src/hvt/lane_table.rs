@@ -140,7 +140,8 @@ pub(super) fn invert<const S: usize>(table: &Table, places: &Places<S>, u: &F, v
     };
     let (scale_a, scale_b) = (1.0 / (table.shape.n_a - 1) as f32, 1.0 / (nb - 1) as f32);
     for k in 0..LANES {
-        let y = linear_at(left[k], right[k], target[k] - below[k]);
+        let [y, d] = linear_at(left[k], right[k], target[k] - below[k]);
+        let y = y / d;
         hit.a[k] = (row[k] as f32 + x[k]) * scale_a;
         hit.b[k] = (column[k] as f32 + y) * scale_b;
         hit.density[k] = left[k] + y * (right[k] - left[k]);
@@ -187,7 +188,8 @@ fn row_of<const S: usize>(table: &Table, places: &Places<S>, u: &F) -> (Index, F
     }
     let (mut x, mut mass) = (ZERO, ZERO);
     for k in 0..LANES {
-        x[k] = linear_at(low[k], high[k], target[k] - under[k]);
+        let [y, d] = linear_at(low[k], high[k], target[k] - under[k]);
+        x[k] = y / d;
         mass[k] = low[k] + x[k] * (high[k] - low[k]);
         first[k] += cell[k];
     }

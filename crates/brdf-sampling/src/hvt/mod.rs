@@ -143,10 +143,10 @@ impl Hvt {
         let body = 1.0 - view.lobe;
         if u.x < body {
             let hit = self.table.invert(&view.place, u.x as f32, u.y as f32);
-            let p = view.chart.forward(DVec2::new(hit.a, hit.b));
+            let (wi, density) = view.chart.direction(hit.a, hit.side);
             return DirectionSample {
-                wi: o.frame().to_world(p.wi),
-                pdf: view.lobe * cosine_pdf(p.wi) + f64::from(hit.density) * p.density,
+                wi: o.frame().to_world(wi),
+                pdf: view.lobe * cosine_pdf(wi) + f64::from(hit.density) * density,
             };
         }
         let wi = cosine_hemisphere(DVec2::new((u.x - body) / view.lobe, u.y));

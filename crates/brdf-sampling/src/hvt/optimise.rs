@@ -2,10 +2,10 @@
 //!
 //! Under sum C w + L = 1 per slice the optimum has -dF/dC = mu_k w wherever C is above its floor. The
 //! multiplicative update C <- C (-dF/dC / (mu_k w))^e converges for e <= 1/2 [Yu2010] from anywhere, but
-//! slowly; Newton's step for F + sum_k mu_k (mass_k - 1) with mu_k = sum C (-dF/dC), on the nodes above the
+//! slowly (3/4 is faster, and what follows does not mind); Newton's step for F + sum_k mu_k (mass_k - 1) with mu_k = sum C (-dF/dC), on the nodes above the
 //! floor, needs a matrix as well conditioned as the mass matrix of hat functions: ten products solve it.
 
-use super::problem::{Problem, Unknowns};
+use super::problem::{Pass, Problem, Unknowns};
 use super::shape::Shape;
 
 /// Lowest node value as a fraction of the slice's mean.
@@ -14,6 +14,8 @@ const FLOOR: f64 = 1e-4;
 const LOBE_FLOOR: f64 = 1e-3;
 /// Longest relative move of an unknown in one Newton step, down and up.
 const TRUST: [f64; 2] = [-0.75, 2.0];
+/// Newton steps are not shortened below this.
+const SHORTEST: f64 = 0.05;
 
 /// How long to search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,40 +31,62 @@ pub(crate) fn optimise(problem: &Problem, effort: Effort) -> (Unknowns, f64) {
     let mut x = problem.start(0.7);
     fill_untouched(problem, &mut x);
     normalise(shape, &mut x);
-    let mut pass = problem.gradient(&x);
+    let mut at = Point {
+        pass: problem.gradient(&x),
+        x,
+    };
     for _ in 0..effort.multiplicative {
-        let mu = multipliers(shape, &x, &pass.out);
-        for_each(shape, &mut x, |k, w, index| {
-            let r = index.of(&pass.out) / (mu[k] * w);
-            // to the power 3/4, by roots: the same on every machine
-            let root = r.max(0.0).sqrt();
-            move |value: &mut f64| *value *= root * root.sqrt()
-        });
-        normalise(shape, &mut x);
-        pass = problem.gradient(&x);
+        at = multiplied(problem, &at);
     }
     for _ in 0..effort.newton {
-        let step = newton_direction(problem, &x, &pass.out, effort.gradients);
-        let mut length = 1.0;
-        loop {
-            let mut next = x.clone();
-            for_each(shape, &mut next, |_, _, index| {
-                let d = length * index.of(&step);
-                move |value: &mut f64| *value += d.clamp(TRUST[0] * *value, TRUST[1] * *value)
-            });
-            normalise(shape, &mut next);
-            let trial = problem.gradient(&next);
-            if trial.value <= pass.value {
-                (x, pass) = (next, trial);
-                break;
-            }
-            length *= 0.35;
-            if length < 0.05 {
-                return (x, pass.value);
-            }
-        }
+        // far from the optimum Newton's direction may lead nowhere: a few cheap steps, then it is asked again
+        at = match newton(problem, &at, effort.gradients) {
+            Some(next) => next,
+            None => multiplied(problem, &multiplied(problem, &at)),
+        };
     }
-    (x, pass.value)
+    (at.x, at.pass.value)
+}
+
+/// Unknowns, every slice of mass 1, and F and its gradient there.
+struct Point {
+    x: Unknowns,
+    pass: Pass,
+}
+
+/// The next point by the multiplicative update.
+fn multiplied(problem: &Problem, at: &Point) -> Point {
+    let (shape, mut x) = (problem.shape, at.x.clone());
+    let mu = multipliers(shape, &x, &at.pass.out);
+    for_each(shape, &mut x, |k, w, index| {
+        let r = index.of(&at.pass.out) / (mu[k] * w);
+        // to the power 3/4, by roots: the same on every machine
+        let root = r.max(0.0).sqrt();
+        move |value: &mut f64| *value *= root * root.sqrt()
+    });
+    normalise(shape, &mut x);
+    let pass = problem.gradient(&x);
+    Point { x, pass }
+}
+
+/// The next point by Newton's step, shortened until it is no worse; `None` if it has to be very short.
+fn newton(problem: &Problem, at: &Point, gradients: usize) -> Option<Point> {
+    let step = newton_direction(problem, &at.x, &at.pass.out, gradients);
+    let mut length = 1.0;
+    while length > SHORTEST {
+        let mut x = at.x.clone();
+        for_each(problem.shape, &mut x, |_, _, index| {
+            let d = length * index.of(&step);
+            move |value: &mut f64| *value += d.clamp(TRUST[0] * *value, TRUST[1] * *value)
+        });
+        normalise(problem.shape, &mut x);
+        let pass = problem.gradient(&x);
+        if pass.value <= at.pass.value {
+            return Some(Point { x, pass });
+        }
+        length *= 0.35;
+    }
+    None
 }
 
 /// One unknown: a node or a lobe.

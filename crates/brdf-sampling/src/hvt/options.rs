@@ -85,7 +85,7 @@ impl HvtOptions {
 
     pub(crate) fn effort(&self) -> Effort {
         Effort {
-            multiplicative: 2,
+            multiplicative: 4,
             newton: self.newton,
             gradients: 8,
         }

@@ -3,6 +3,9 @@
 use super::slices;
 use glam::DVec3;
 
+/// Floats around it are whole.
+const LARGE: f32 = 1.5 * (1_u32 << 23) as f32;
+
 /// Node counts of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Shape {
@@ -68,9 +71,10 @@ impl Shape {
         // whole numbers of 32 bits: others take a branch on the way to f32
         let last = self.n_theta as u32 - 1;
         let x = slices::tau(sin_o as f32, wo.z as f32) * last as f32;
-        let k = (x as u32).min(last - 1);
-        let t = x - k as f32;
-        let k = k as usize;
+        // rounded near a large number, whose low bits are 0; between two slices either neighbour will do at its own place
+        let shifted = (x - 0.5) + LARGE;
+        let k = (shifted.to_bits() - LARGE.to_bits()).min(last - 1) as usize;
+        let t = x - k as u32 as f32;
         let mut blend = Blend {
             slice: [k; S],
             weight: [0.0; S],

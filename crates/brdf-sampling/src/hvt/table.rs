@@ -2,9 +2,9 @@
 
 use super::minifloat::{MAX, decode, encode, look_up};
 use super::optimise::normalise;
-use super::options::MAX_B;
 use super::problem::Unknowns;
 use super::shape::{Blend, Shape};
+use crate::pseudo_angle::Ratio;
 use crate::pseudo_log::LARGE;
 
 /// Quantised densities of all slices. The density of slice k on the unit square is scale_k times the bilinear
@@ -47,12 +47,10 @@ pub(crate) struct Place<const S: usize> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Hit {
     pub(crate) a: f64,
-    pub(crate) b: f64,
+    /// 2 b - 1.
+    pub(crate) side: Ratio,
     pub(crate) density: f32,
 }
-
-/// A blended row of nodes.
-type Row<const B: usize> = [f32; B];
 
 impl Table {
     /// Rounds node values to bytes and restores the mass of every slice.
@@ -168,37 +166,55 @@ impl Table {
     pub(crate) fn invert<const S: usize>(&self, p: &Place<S>, u: f32, v: f32) -> Hit {
         // loops of fixed length are worth a copy of the code for every length
         match self.shape.n_b {
-            8 => self.invert_rows::<S, 8>(p, u, v),
-            16 => self.invert_rows::<S, 16>(p, u, v),
-            24 => self.invert_rows::<S, 24>(p, u, v),
-            _ => self.invert_rows::<S, 32>(p, u, v),
+            8 => self.invert_rows::<S, 8, 2>(p, u, v),
+            16 => self.invert_rows::<S, 16, 4>(p, u, v),
+            24 => self.invert_rows::<S, 24, 6>(p, u, v),
+            _ => self.invert_rows::<S, 32, 8>(p, u, v),
         }
     }
 
-    /// [`Self::invert`] for rows of `B` nodes.
+    /// [`Self::invert`] for rows of `B` nodes in `N` blocks.
     #[inline(always)]
-    fn invert_rows<const S: usize, const B: usize>(&self, p: &Place<S>, u: f32, v: f32) -> Hit {
-        let (i, x, mass) = self.row_of(p, u);
-        let row = self.row::<S, B>(p, i, x);
-        let mut cells = [0.0; B];
-        for j in 0..B - 1 {
-            cells[j] = row[j] + row[j + 1];
+    fn invert_rows<const S: usize, const B: usize, const N: usize>(
+        &self,
+        p: &Place<S>,
+        u: f32,
+        v: f32,
+    ) -> Hit {
+        let (i, [l, h], [y, d]) = self.row_of(p, u);
+        let rows = self.rows_around::<S, B>(p, i);
+        let (low, high) = (blocks::<N>(&rows[0]), blocks::<N>(&rows[1]));
+        // the row at y / d and its mass, both times d: the search does not wait for a division
+        let near = d - y;
+        let mut row = [[0.0; N]; BLOCK + 1];
+        for m in 0..BLOCK + 1 {
+            for b in 0..N {
+                row[m][b] = near * low[m][b] + y * high[m][b];
+            }
         }
         // masses of rows are known before their nodes are read
+        let mass = near * l + y * h;
         let target = 2.0 * v * (mass * self.shape.cells() as u32 as f32);
-        let (j, rest) = search(&cells, target, B - 2);
-        let y = linear_at(row[j], row[j + 1], rest);
+        let (j, rest) = search(&row, target, B - 2);
+        let left = near * rows[0][j] + y * rows[1][j];
+        let right = near * rows[0][j + 1] + y * rows[1][j + 1];
+        let across = linear_at(left, right, rest);
+        let (step, first) = (2.0 / (B - 1) as f64, f64::from(j as u32));
+        let [up, down] = across.map(f64::from);
         Hit {
-            a: (f64::from(i as u32) + f64::from(x)) * self.step_a,
-            b: (f64::from(j as u32) + f64::from(y)) * (1.0 / (B - 1) as f64),
-            density: lerp(row[j], row[j + 1], y),
+            a: (f64::from(i as u32) + f64::from(y / d)) * self.step_a,
+            side: Ratio {
+                num: (first * step - 1.0) * down + step * up,
+                den: down,
+            },
+            density: lerp(left, right, across[0] / across[1]) / d,
         }
     }
 
-    /// The interval of rows in which the blended marginal reaches `u`, the place in it, and the mass of a row there.
+    /// The interval of rows in which the blended marginal reaches `u`, the masses of the rows at its ends, and the place in it.
     /// First by `starts`, then among the rows from there; what is not above `u` is counted, so nothing branches.
     #[inline(always)]
-    fn row_of<const S: usize>(&self, p: &Place<S>, u: f32) -> (usize, f32, f32) {
+    fn row_of<const S: usize>(&self, p: &Place<S>, u: f32) -> (usize, [f32; 2], [f32; 2]) {
         let (w, n) = (p.blend.weight, starts(self.shape.n_a));
         let (mut passed, mut below) = ([0_u32; BLOCK], [0.0_f32; BLOCK]);
         for block in 0..n / BLOCK {
@@ -217,37 +233,60 @@ impl Table {
         }
         let first = SPAN * ((passed[0] + passed[1]) + (passed[2] + passed[3])) as usize;
         // they grow with their number
-        let below = below[0].max(below[1]).max(below[2].max(below[3]));
+        let larger = |a: f32, b: f32| if a > b { a } else { b };
+        let below = larger(larger(below[0], below[1]), larger(below[2], below[3]));
         let mut rows = [0.0_f32; SPAN + 1];
         for s in 0..S {
             let at = p.blend.slice[s] * self.shape.n_a + first;
             let list = self.rows[at..].first_chunk().unwrap_or(&[0.0; SPAN + 1]);
-            for k in 0..=SPAN {
+            // not up to SPAN inclusive, which would stay a loop of single numbers
+            for k in 0..SPAN + 1 {
                 rows[k] += w[s] * list[k];
             }
         }
-        let cells: [f32; SPAN] = std::array::from_fn(|k| rows[k] + rows[k + 1]);
         let last = (self.shape.n_a - 2 - first).min(SPAN - 1);
-        let (k, rest) = search(&cells, 2.0 * (u - below), last);
+        let (k, rest) = search::<{ SPAN / BLOCK }>(&blocks(&rows), 2.0 * (u - below), last);
         let (l, h) = (rows[k], rows[k + 1]);
-        let x = linear_at(l, h, rest);
-        (first + k, x, lerp(l, h, x))
+        (first + k, [l, h], linear_at(l, h, rest))
     }
 
-    /// The blended row at `x` between rows `i` and `i` + 1.
+    /// Rows `i` and `i` + 1, slices blended.
     #[inline(always)]
-    fn row<const S: usize, const B: usize>(&self, p: &Place<S>, i: usize, x: f32) -> Row<B> {
+    fn rows_around<const S: usize, const B: usize>(&self, p: &Place<S>, i: usize) -> [[f32; B]; 2] {
         let n = self.shape.slice();
-        let mut row = [0.0; B];
+        let (mut low, mut high) = ([0.0; B], [0.0; B]);
         for (slice, factor) in p.blend.slice.iter().zip(p.factor) {
             let at = &self.nodes[slice * n + i * B..][..2 * B];
-            let (low, high) = (factor * (1.0 - x), factor * x);
             for j in 0..B {
-                row[j] += low * decode(at[j]) + high * decode(at[B + j]);
+                low[j] += factor * decode(at[j]);
+            }
+            for j in 0..B {
+                high[j] += factor * decode(at[B + j]);
             }
         }
-        row
+        [low, high]
     }
+}
+
+/// The nodes of a line of cells in blocks of four cells: node 0 of every block, node 1 and so on; node 4 is node 0 of the
+/// next block. The last block may end with a cell, and a node, that does not count.
+type Blocks<const N: usize> = [[f32; N]; BLOCK + 1];
+
+#[inline(always)]
+fn blocks<const N: usize>(line: &[f32]) -> Blocks<N> {
+    let mut nodes = [[0.0; N]; BLOCK + 1];
+    for m in 0..BLOCK {
+        for b in 0..N {
+            nodes[m][b] = line[BLOCK * b + m];
+        }
+    }
+    for b in 0..N - 1 {
+        nodes[BLOCK][b] = line[BLOCK * (b + 1)];
+    }
+    if line.len() > BLOCK * N {
+        nodes[BLOCK][N - 1] = line[BLOCK * N];
+    }
+    nodes
 }
 
 /// Entries of `starts` a slice of `n_a` rows has.
@@ -273,30 +312,47 @@ fn split(x: f64, n: usize) -> (usize, f32) {
     (i as usize, (x - (shifted - LARGE)) as f32)
 }
 
-/// The point of [0, 1] at which a density linear from `r0` to `r1` has the mass `y` / 2 below it. The quadratic is solved in
-/// the form without cancellation.
+/// The point of [0, 1] at which a density linear from `r0` to `r1` has the mass `y` / 2 below it, as numerator and denominator.
+/// The quadratic is solved in the form without cancellation. `y` is not below 0, but may be above r0 + r1 by rounding.
 #[inline(always)]
-pub(crate) fn linear_at(r0: f32, r1: f32, y: f32) -> f32 {
-    (y / (r0 + (r0 * r0 + (r1 - r0) * y).max(0.0).sqrt())).clamp(0.0, 1.0)
+pub(crate) fn linear_at(r0: f32, r1: f32, y: f32) -> [f32; 2] {
+    let d = r0 + (r0 * r0 + (r1 - r0) * y).max(0.0).sqrt();
+    [if y < d { y } else { d }, d]
 }
 
-/// The cell in which the sums of `cells` reach `target`, at most cell `last`, and what is left of the target there. By blocks,
-/// then in the block. Sums are kept and the one below the target is read by its number: chosen on the way, it would
-/// branch on the outcome, which nothing foretells.
+/// The cell in which twice the mass from the start of the line reaches `target`, at most cell `last`. By blocks, then in the
+/// block. Sums are kept and the one below the target is read by its number: chosen on the way, it would branch on the
+/// outcome, which nothing foretells.
 #[inline(always)]
-fn search<const C: usize>(cells: &[f32; C], target: f32, last: usize) -> (usize, f32) {
-    let (mut sums, mut total) = ([0.0; MAX_B / BLOCK], 0.0);
-    for (below, m) in sums.iter_mut().zip(cells.chunks_exact(BLOCK)) {
-        *below = total;
-        total += (m[0] + m[1]) + (m[2] + m[3]);
+fn search<const N: usize>(nodes: &Blocks<N>, target: f32, last: usize) -> (usize, f32) {
+    // masses from the start of a block to its nodes, and of all of it
+    let (mut inside, mut whole) = ([[0.0; N]; BLOCK], [0.0; N]);
+    for b in 0..N {
+        let cell = [
+            nodes[0][b] + nodes[1][b],
+            nodes[1][b] + nodes[2][b],
+            nodes[2][b] + nodes[3][b],
+            nodes[3][b] + nodes[4][b],
+        ];
+        inside[1][b] = cell[0];
+        inside[2][b] = cell[0] + cell[1];
+        inside[3][b] = inside[2][b] + cell[2];
+        whole[b] = inside[2][b] + (cell[2] + cell[3]);
     }
-    let passed = |sums: &[f32]| sums.iter().map(|s| u32::from(*s <= target)).sum::<u32>() as usize;
-    let block = passed(&sums[1..C / BLOCK]).min(last / BLOCK);
-    let m: &[f32; BLOCK] = cells[BLOCK * block..]
-        .first_chunk()
-        .unwrap_or(&[0.0; BLOCK]);
-    let (below, pair) = (sums[block], sums[block] + (m[0] + m[1]));
-    let sums = [below, below + m[0], pair, pair + m[2]];
-    let k = passed(&sums[1..]).min(last - BLOCK * block);
-    (BLOCK * block + k, target - sums[k])
+    let mut below = [0.0; N];
+    for b in 1..N {
+        below[b] = below[b - 1] + whole[b - 1];
+    }
+    let mut block = 0;
+    for b in 1..N {
+        block += usize::from(below[b] <= target);
+    }
+    let block = block.min(last / BLOCK);
+    let rest = target - below[block];
+    let mut k = 0;
+    for m in 1..BLOCK {
+        k += usize::from(inside[m][block] <= rest);
+    }
+    let k = k.min(last - BLOCK * block);
+    (BLOCK * block + k, rest - inside[k][block])
 }
