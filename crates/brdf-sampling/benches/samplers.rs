@@ -3,13 +3,12 @@
 //! Sampling and densities are measured in CPU time of the thread, so that a busy machine does not show; packets run
 //! under the widest instruction set there is, as a renderer runs them.
 
-use brdf::{DirectionSampler, LANES, Lanes3, direction};
-use brdf_sampling::{Cosine, Hvt, Inversion, InversionOptions, Preset, Target, Uniform};
+use brdf::DirectionSampler;
+use brdf_sampling::{
+    Cosine, Hvt, Inversion, InversionOptions, PacketCalls, Preset, SingleCalls, Target, Uniform,
+};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use glam::{DVec2, DVec3};
-use pulp::{Arch, Simd, WithSimd};
-use sampling::Rng;
-use std::hint::black_box;
+use glam::DVec3;
 
 mod cpu_time;
 
@@ -24,139 +23,35 @@ fn gloss(wi: DVec3, wo: DVec3) -> f64 {
     0.1 + 20.0 / (q * q)
 }
 
-/// A sampler compiled for packets of the widest instruction set.
-trait Wide: DirectionSampler {
-    fn sample_all(&self, arch: Arch, packets: &[(Lanes3, Pair)]);
-    fn pdf_all(&self, arch: Arch, pairs: &[(Lanes3, Lanes3)]);
-}
-
-/// Two random numbers a lane.
-type Pair = [[f32; LANES]; 2];
-
-impl<S: DirectionSampler> Wide for S {
-    fn sample_all(&self, arch: Arch, packets: &[(Lanes3, Pair)]) {
-        arch.dispatch(Sampling(self, packets));
-    }
-
-    fn pdf_all(&self, arch: Arch, pairs: &[(Lanes3, Lanes3)]) {
-        arch.dispatch(Densities(self, pairs));
-    }
-}
-
-struct Sampling<'a, S>(&'a S, &'a [(Lanes3, Pair)]);
-
-impl<S: DirectionSampler> WithSimd for Sampling<'_, S> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<T: Simd>(self, _: T) {
-        for (wo, u) in self.1 {
-            black_box(self.0.sample_lanes(wo, u));
-        }
-    }
-}
-
-struct Densities<'a, S>(&'a S, &'a [(Lanes3, Lanes3)]);
-
-impl<S: DirectionSampler> WithSimd for Densities<'_, S> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<T: Simd>(self, _: T) {
-        for (wi, wo) in self.1 {
-            black_box(self.0.pdf_lanes(wi, wo));
-        }
-    }
-}
-
-fn samplers() -> Vec<(&'static str, Box<dyn Wide>)> {
+fn cost(c: &mut Criterion<CpuTime>) {
     let target = Target::new(&gloss);
-    vec![
-        ("uniform", Box::new(Uniform)),
-        ("cosine", Box::new(Cosine)),
-        (
-            "inversion",
-            Box::new(Inversion::new(target, InversionOptions::default())),
-        ),
-        (
-            "hvt-default",
-            Box::new(Hvt::new(target, Preset::Default.options())),
-        ),
-        (
-            "hvt-fine",
-            Box::new(Hvt::new(target, Preset::Fine.options())),
-        ),
-    ]
+    cost_of(c, "uniform", &Uniform);
+    cost_of(c, "cosine", &Cosine);
+    let inversion = Inversion::new(target, InversionOptions::default());
+    cost_of(c, "inversion", &inversion);
+    for (name, preset) in [("hvt-default", Preset::Default), ("hvt-fine", Preset::Fine)] {
+        cost_of(c, name, &Hvt::new(target, preset.options()));
+    }
 }
 
-fn scalar(c: &mut Criterion<CpuTime>) {
-    let mut rng = Rng::new(1);
-    let inputs: Vec<(DVec3, DVec2)> = (0..COUNT)
-        .map(|_| {
-            (
-                direction(1.5 * rng.uniform(), 6.2 * rng.uniform()),
-                rng.uniform2(),
-            )
-        })
-        .collect();
+fn cost_of<S: DirectionSampler>(c: &mut Criterion<CpuTime>, name: &str, sampler: &S) {
+    let (single, packets) = (
+        SingleCalls::new(sampler, COUNT),
+        PacketCalls::new(sampler, COUNT),
+    );
     let mut group = c.benchmark_group("brdf-sampling/scalar");
     group.throughput(Throughput::Elements(COUNT as u64));
-    for (name, sampler) in samplers() {
-        group.bench_function(format!("sample/{name}"), |b| {
-            b.iter(|| {
-                for (wo, u) in &inputs {
-                    black_box(sampler.sample(*wo, *u));
-                }
-            });
-        });
-        let pairs: Vec<(DVec3, DVec3)> = inputs
-            .iter()
-            .filter_map(|(wo, u)| Some((sampler.sample(*wo, *u)?.wi, *wo)))
-            .collect();
-        group.bench_function(format!("pdf/{name}"), |b| {
-            b.iter(|| {
-                for (wi, wo) in &pairs {
-                    black_box(sampler.pdf(*wi, *wo));
-                }
-            });
-        });
-    }
+    group.bench_function(format!("sample/{name}"), |b| {
+        b.iter(|| single.sample(sampler));
+    });
+    group.bench_function(format!("pdf/{name}"), |b| b.iter(|| single.pdf(sampler)));
     group.finish();
-}
-
-fn lanes(c: &mut Criterion<CpuTime>) {
-    let mut rng = Rng::new(2);
-    let (arch, mut packets) = (Arch::new(), Vec::new());
-    for _ in 0..COUNT / LANES {
-        let (mut wo, mut u) = (Lanes3::ZERO, [[0.0; LANES]; 2]);
-        for k in 0..LANES {
-            wo.set(
-                k,
-                direction(1.5 * rng.uniform(), 6.2 * rng.uniform()).as_vec3(),
-            );
-            u[0][k] = rng.uniform() as f32;
-            u[1][k] = rng.uniform() as f32;
-        }
-        packets.push((wo, u));
-    }
     let mut group = c.benchmark_group("brdf-sampling/lanes");
     group.throughput(Throughput::Elements(COUNT as u64));
-    for (name, sampler) in samplers() {
-        group.bench_function(format!("sample/{name}"), |b| {
-            b.iter(|| {
-                sampler.sample_all(arch, &packets);
-            });
-        });
-        let pairs: Vec<_> = packets
-            .iter()
-            .map(|(wo, u)| (sampler.sample_lanes(wo, u).wi, *wo))
-            .collect();
-        group.bench_function(format!("pdf/{name}"), |b| {
-            b.iter(|| {
-                sampler.pdf_all(arch, &pairs);
-            });
-        });
-    }
+    group.bench_function(format!("sample/{name}"), |b| {
+        b.iter(|| packets.sample(sampler));
+    });
+    group.bench_function(format!("pdf/{name}"), |b| b.iter(|| packets.pdf(sampler)));
     group.finish();
 }
 
@@ -176,9 +71,9 @@ fn build(c: &mut Criterion) {
 }
 
 criterion_group! {
-    name = cost;
+    name = costs;
     config = Criterion::default().with_measurement(CpuTime);
-    targets = scalar, lanes
+    targets = cost
 }
 criterion_group!(building, build);
-criterion_main!(cost, building);
+criterion_main!(costs, building);

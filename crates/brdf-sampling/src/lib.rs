@@ -9,7 +9,7 @@
 //! - [`Hvt`]: small tables of least variance, the default choice; [`ColourTarget`] serves several channels,
 //!   [`colour_floor`] says how well that can go; [`BakedHvt`] evaluates through the table.
 //! - [`Dictionary`]: GGX lobes and a cosine, 0.4 KB or a single lobe.
-//! - [`sampler_report`], [`sampler_cost`], [`relative_variance`]: how noisy and how fast any of them is.
+//! - [`sampler_report`], [`sampler_cost`], [`packet_cost`], [`relative_variance`]: how noisy and how fast any of them is.
 //!
 //! Not here: lights, multiple importance sampling, files.
 
@@ -18,6 +18,7 @@ mod baked;
 mod chart;
 mod colour;
 mod cosine;
+mod cost;
 mod dictionary;
 mod hvt;
 mod inversion;
@@ -36,14 +37,13 @@ mod variance;
 pub use baked::BakedHvt;
 pub use colour::{ColourTarget, colour_floor};
 pub use cosine::Cosine;
+pub use cost::{PacketCalls, SamplerCost, SingleCalls, packet_cost, sampler_cost};
 pub use dictionary::Dictionary;
 pub use hvt::{Hvt, HvtOptions, MAX_B, Preset};
 pub use inversion::{Inversion, InversionOptions};
 pub use rejection::{BoundAudit, Rejection, RejectionOptions, SharedTarget};
 pub use rejection_cache::{CacheError, Proposal, RejectionCache};
-pub use report::{
-    OFF_GRID, SHOWN_DEG, SamplerCost, SamplerReport, off_grid_deg, sampler_cost, sampler_report,
-};
+pub use report::{OFF_GRID, SHOWN_DEG, SamplerReport, off_grid_deg, sampler_report};
 pub use target::{Target, TargetLanes};
 pub use uniform::Uniform;
 pub use variance::{RelativeVariance, relative_variance, relative_variance_for};

@@ -3,11 +3,8 @@
 use crate::target::Target;
 use crate::variance::{RelativeVariance, relative_variance_for};
 use brdf::{DirectionSampler, direction};
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use rayon::prelude::*;
-use sampling::Rng;
-use std::hint::black_box;
-use std::time::Instant;
 
 /// Viewers at which a report shows the relative variance, degrees.
 pub const SHOWN_DEG: [f64; 7] = [0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 85.0];
@@ -93,53 +90,4 @@ pub fn sampler_report(
         albedo: mean(&|v| v.albedo),
         bytes: sampler.bytes(),
     }
-}
-
-/// Time of one call, by the clock.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SamplerCost {
-    /// Nanoseconds of [`DirectionSampler::sample`].
-    pub sample_ns: f64,
-    /// Nanoseconds of [`DirectionSampler::pdf`].
-    pub pdf_ns: f64,
-}
-
-/// Calls timed together: enough that the clock does not count, few enough that inputs stay in the cache.
-const BATCH: usize = 1000;
-
-/// Times calls one after another on this thread for viewers all over the hemisphere: the best of `runs` batches of 1000.
-#[must_use]
-pub fn sampler_cost(sampler: &dyn DirectionSampler, runs: usize) -> SamplerCost {
-    let mut rng = Rng::new(5);
-    let inputs: Vec<(DVec3, DVec2)> = (0..BATCH)
-        .map(|_| {
-            let wo = direction(1.5 * rng.uniform(), 6.0 * rng.uniform());
-            (wo, rng.uniform2())
-        })
-        .collect();
-    let pairs: Vec<(DVec3, DVec3)> = inputs
-        .iter()
-        .filter_map(|(wo, u)| Some((sampler.sample(*wo, *u)?.wi, *wo)))
-        .collect();
-    SamplerCost {
-        sample_ns: best_of(runs, inputs.len(), || {
-            for (wo, u) in &inputs {
-                black_box(sampler.sample(*wo, *u));
-            }
-        }),
-        pdf_ns: best_of(runs, pairs.len(), || {
-            for (wi, wo) in &pairs {
-                black_box(sampler.pdf(*wi, *wo));
-            }
-        }),
-    }
-}
-
-fn best_of(runs: usize, calls: usize, batch: impl Fn()) -> f64 {
-    let one = |_| {
-        let start = Instant::now();
-        batch();
-        start.elapsed().as_secs_f64() * 1e9 / calls.max(1) as f64
-    };
-    (0..runs.max(1)).map(one).fold(f64::INFINITY, f64::min)
 }

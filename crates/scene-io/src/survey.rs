@@ -6,7 +6,6 @@
 mod cost;
 mod verdict;
 
-pub use cost::PacketCost;
 pub use verdict::{TEST_DEG, Verdict};
 
 use crate::cache::Cache;
@@ -15,8 +14,8 @@ use crate::material::{self, Surface, Visitor, luminance};
 use crate::scene::SamplerName;
 use brdf::{Brdf, DirectionSampler, direction};
 use brdf_sampling::{
-    OFF_GRID, SHOWN_DEG, SamplerCost, SamplerReport, Target, off_grid_deg, sampler_cost,
-    sampler_report,
+    OFF_GRID, SHOWN_DEG, SamplerCost, SamplerReport, Target, off_grid_deg, packet_cost,
+    sampler_cost, sampler_report,
 };
 use glam::DVec3;
 use rayon::prelude::*;
@@ -51,7 +50,7 @@ pub struct Survey {
     /// One call after another.
     pub cost: SamplerCost,
     /// In packets, as renderers call it; `None` for slow samplers, which have no packets of their own.
-    pub packets: Option<PacketCost>,
+    pub packets: Option<SamplerCost>,
     /// Whether samples agree with the density; `None` where too few could be drawn in the time.
     pub verdict: Option<Verdict>,
     /// Whether low-discrepancy points keep their gain.
@@ -162,7 +161,7 @@ impl Visitor for Measuring<'_> {
             } else {
                 probe
             },
-            packets: fast.then(|| cost::packets(&sampler, BATCHES)),
+            packets: fast.then(|| packet_cost(&sampler, BATCHES)),
             verdict: verdict::judge(&sampler, affordable, self.options.methods),
             keeps_stratification: sampler.keeps_stratification(),
             notes,

@@ -1,11 +1,12 @@
 //! The mean weight of samples is the directional albedo of the table, by quadrature.
 
 use crate::quadrature::hemisphere;
-use crate::samplers::{ALL, Entry};
+use crate::samplers::{ALL, Entry, target};
 use crate::table_kinds::{TABLES, TableKind};
 use crate::targets::Case;
 use crate::{chi_square, targets, viewer};
 use brdf::DirectionSampler;
+use brdf_sampling::{Hvt, Preset};
 use glam::{DVec2, DVec3};
 use testkit::{Rng, sidak, z_test};
 
@@ -84,8 +85,9 @@ fn run(cases: &[Case], angles: &[f64], samples: usize, wanted: impl Fn(usize, us
             }
             // slices of azimuth are few for a lobe six times as long as wide, which has no such bound
             let bounded = entry.name == "Hvt default" && case.symmetry.isotropic;
-            // ridges finer than the nodes of the default table leave a relative variance of 1, and weights as wild
-            let most = if case.name == "spiky" { 20.0 } else { 10.0 };
+            // its ridges in theta_d move across the chart between two of the twelve slices: a relative variance of 1.7 and
+            // weights of 12 to 15 at 11 degrees with 38 to 44 rows of nodes alike, 8 with fourteen slices, 5 in fine tables
+            let most = if case.name == "spiky" { 16.0 } else { 10.0 };
             if bounded && w.largest > most {
                 failed.push(format!("{name} at {theta}: weight {} means", w.largest));
             }
@@ -124,6 +126,18 @@ fn slow_furnace_of_every_sampler_on_formulas() {
     // the lobe of half a degree drowns in the noise of uniform samples
     cases.retain(|c| c.name != "nan" && c.name != "ggx-0.005");
     run(&cases, &[11.0, 52.0], 10_000, |_, _| true);
+}
+
+/// What default tables do not resolve, fine ones do.
+#[test]
+fn fine_tables_bound_the_weights_of_fine_ridges() {
+    let cases = targets::all();
+    let case = cases.iter().find(|c| c.name == "spiky").unwrap();
+    let sampler = Hvt::new(target(case), Preset::Fine.options());
+    for theta in [11.0, 37.0, 52.0] {
+        let w = weights(case, &sampler, viewer(theta), 20_000);
+        assert!(w.largest < 7.0, "{} means at {theta}", w.largest);
+    }
 }
 
 /// Tables reflect what the model they were made of reflects.
