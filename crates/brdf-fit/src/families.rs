@@ -116,6 +116,26 @@ fn channels(weights: &[Vec<f64>], index: usize) -> String {
     values.join("/")
 }
 
+/// The largest weight of a lobe that the text of a model may hold.
+const LARGEST_WEIGHT: f64 = 1e3;
+
+/// What brings the weights `lobes` of all channels into the range of a model's text: 1 unless one of them is larger.
+fn excess(weights: &[Vec<f64>], lobes: std::ops::Range<usize>) -> f64 {
+    let all = weights.iter().flat_map(|w| &w[lobes.clone()]);
+    let largest = all.copied().fold(0.0, f64::max);
+    if largest > LARGEST_WEIGHT {
+        largest
+    } else {
+        1.0
+    }
+}
+
+/// All weights over `factor`.
+fn over(weights: &[Vec<f64>], factor: f64) -> Vec<Vec<f64>> {
+    let one = |w: &Vec<f64>| w.iter().map(|w| w / factor).collect();
+    weights.iter().map(one).collect()
+}
+
 /// A part without a factor.
 fn whole(text: String, channels: usize) -> Part {
     Part {
@@ -131,5 +151,38 @@ fn lambert(weights: &[Vec<f64>], index: usize) -> Part {
     Part {
         text: format!("lambert:kd={}", channels(&scaled, 0)),
         scale: vec![largest; weights.len()],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{families, family};
+    use brdf::direction;
+    use brdf_models::parse_model;
+
+    #[test]
+    fn weights_beyond_what_a_text_may_hold_go_into_the_factor() {
+        let (wi, wo) = (direction(0.5, 0.0), direction(0.6, 2.9));
+        for name in families() {
+            let family = family(name, 1).unwrap();
+            if family.weights().len() != 2 {
+                continue;
+            }
+            let shape: Vec<f64> = family.shape().iter().map(|s| s.starts[0]).collect();
+            for ks in [[0.5, 0.2, 0.1], [5000.0, 2.0, 300.0]] {
+                let weights = ks.map(|ks| vec![0.2, ks]);
+                let mut lobes = [0.0; 2];
+                family.lobes(&shape).eval(wi, wo, &mut lobes);
+                let mut sum = [0.0; 3];
+                for part in family.parts(&shape, &weights) {
+                    let f = parse_model(&part.text).unwrap().built.brdf.eval(wi, wo);
+                    (0..3).for_each(|c| sum[c] += part.scale[c] * f[c]);
+                }
+                for c in 0..3 {
+                    let expected = 0.2 * lobes[0] + ks[c] * lobes[1];
+                    assert!((sum[c] / expected - 1.0).abs() < 1e-12, "{name}: {sum:?}");
+                }
+            }
+        }
     }
 }

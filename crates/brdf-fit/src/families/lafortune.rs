@@ -1,7 +1,7 @@
 //! Lafortune's lobes with isotropic axes [Lafortune1997].
 
 use super::registry::Sum;
-use super::{build, channels, exponent, lambert, numbered, whole};
+use super::{build, channels, excess, exponent, lambert, numbered, over, whole};
 use crate::family::{Channels, Family, Lobes, Part, Scale, ShapeParameter, Weight};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -74,11 +74,14 @@ impl Family for Lafortune {
     }
 
     fn parts(&self, shape: &[f64], weights: &[Vec<f64>]) -> Vec<Part> {
+        let count = Self::lobes_of(shape).count();
+        let factor = excess(weights, 1..1 + count);
+        let scaled = over(weights, factor);
         let lobes: Vec<String> = Self::lobes_of(shape)
             .enumerate()
             .map(|(j, (n, cx, cz))| {
                 let name = |name| numbered(name, j);
-                let ks = channels(weights, 1 + j);
+                let ks = channels(&scaled, 1 + j);
                 format!(
                     "{}={ks},{}={n},{}={cx},{}={cz}",
                     name("ks"),
@@ -89,13 +92,16 @@ impl Family for Lafortune {
             })
             .collect();
         let lobes = format!("{NAME}:{}", lobes.join(","));
-        if weights.iter().all(|w| w[0] <= 1.0) {
+        if factor <= 1.0 && weights.iter().all(|w| w[0] <= 1.0) {
             let kd = channels(weights, 0);
             return vec![whole(format!("{lobes},kd={kd}"), weights.len())];
         }
         vec![
             lambert(weights, 0),
-            whole(format!("{lobes},kd=0"), weights.len()),
+            Part {
+                text: format!("{lobes},kd=0"),
+                scale: vec![factor; weights.len()],
+            },
         ]
     }
 }

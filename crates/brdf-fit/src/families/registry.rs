@@ -2,7 +2,7 @@
 
 use super::{
     EXPONENT_RANGE, EXPONENTS, REFLECTANCE_RANGE, REFLECTANCES, ROUGHNESSES, build, channels,
-    lambert, numbered, whole,
+    excess, lambert, numbered, over,
 };
 use crate::family::{Channels, Family, Lobes, Part, Scale, ShapeParameter, Weight};
 use glam::DVec3;
@@ -226,8 +226,9 @@ impl Family for Registered {
     }
 
     fn parts(&self, shape: &[f64], weights: &[Vec<f64>]) -> Vec<Part> {
-        let diffuse_fits = weights.iter().all(|w| w[0] <= 1.0);
-        if self.lobes == 0 || !diffuse_fits {
+        let together =
+            weights.iter().all(|w| w[0] <= 1.0) && excess(weights, 1..2.min(1 + self.lobes)) <= 1.0;
+        if self.lobes == 0 || !together {
             let lobes = (0..self.lobes).map(|lobe| self.part(shape, weights, lobe, false));
             return std::iter::once(lambert(weights, 0)).chain(lobes).collect();
         }
@@ -244,8 +245,12 @@ impl Registered {
         } else {
             "0".into()
         };
-        let text = self.weighted(shape, lobe, &channels(weights, 1 + lobe), &kd);
-        whole(text, weights.len())
+        let factor = excess(weights, 1 + lobe..2 + lobe);
+        let ks = channels(&over(weights, factor), 1 + lobe);
+        Part {
+            text: self.weighted(shape, lobe, &ks, &kd),
+            scale: vec![factor; weights.len()],
+        }
     }
 }
 
