@@ -50,13 +50,13 @@ impl LeftOut {
     #[must_use]
     pub fn cost(self) -> f64 {
         match self {
-            Self::Triangles => 1.57,
+            Self::Triangles => 1.16,
             Self::ShadingNormals | Self::Roulette => 1.0,
-            Self::Environment => 1.11,
-            Self::Lights => 1.40,
-            Self::LightChoice => 1.79,
-            Self::LightTree => 1.96,
-            Self::Filter => 1.05,
+            Self::Environment => 1.14,
+            Self::Lights => 1.45,
+            Self::LightChoice => 1.83,
+            Self::LightTree => 1.99,
+            Self::Filter => 1.07,
         }
     }
 }

@@ -66,7 +66,7 @@ fn logs_go_to_stderr_and_results_to_stdout() {
     assert_eq!(run.code, 0, "{}", run.err);
     assert!(
         run.err.contains(
-            "left out:\n  triangles: no tree is built or walked (with it 1.57 times the time)\n"
+            "left out:\n  triangles: no tree is built or walked (with it 1.16 times the time)\n"
         ),
         "{}",
         run.err

@@ -168,10 +168,13 @@ pub(super) struct Memory {
 /// Resident before anything is loaded: code, the runtime, thread stacks. Measured.
 const PROGRAM: usize = 14 << 20;
 
-/// Of a pixel on its way to files: colour and variance in f32, nine planes of the EXR and errors on their way into them.
-const PICTURE_BYTES: usize = 12 + 12 + 36 + 12;
+/// Of a pixel on its way to files: colour and variance in f32.
+const PICTURE_BYTES: usize = 12 + 12;
 
-/// The same of a film of other channels than linear sRGB: its means in f64 and planes in f32.
+/// The nine planes of its EXR in f32.
+const PLANE_BYTES: usize = 36;
+
+/// Of a channel of a film of other channels than linear sRGB: its mean in f64 and its plane in f32.
 const CHANNEL_BYTES: usize = 8 + 4;
 
 impl Memory {
@@ -199,11 +202,11 @@ impl Memory {
     pub(super) fn new(built: &BuiltScene<AnyScene>, traced: &Traced) -> Self {
         let scene = built.scene.bytes();
         let pixels = built.size.0 as usize * built.size.1 as usize;
-        // a film of other channels has a twin in linear sRGB, for the estimates and the PNG
+        // a film of other channels has a twin in linear sRGB, for the estimates and the PNG, which goes before its planes come
         let (film, twin) = (traced.film.bytes(), traced.film.twin_bytes());
         let own = match twin {
-            0 => 0,
-            twin => twin + traced.film.channels() * pixels * CHANNEL_BYTES,
+            0 => PLANE_BYTES * pixels,
+            twin => twin.max(traced.film.channels() * pixels * CHANNEL_BYTES),
         };
         let mut memory = Self {
             film,
