@@ -7,7 +7,8 @@ mod registry;
 
 use crate::FitError;
 use crate::family::{Family, Part, Scale, ShapeParameter};
-use brdf_models::{ParsedModel, parse_model_n};
+use brdf_models::{MODELS, ParsedModel, parse_model_n};
+use std::ops::Range;
 
 /// Starts of roughnesses: half a decade apart and closer where materials crowd.
 const ROUGHNESSES: &[f64] = &[0.003, 0.01, 0.03, 0.06, 0.12, 0.25, 0.5, 0.9];
@@ -116,18 +117,15 @@ fn channels(weights: &[Vec<f64>], index: usize) -> String {
     values.join("/")
 }
 
-/// The largest weight of a lobe that the text of a model may hold.
-const LARGEST_WEIGHT: f64 = 1e3;
-
-/// What brings the weights `lobes` of all channels into the range of a model's text: 1 unless one of them is larger.
-fn excess(weights: &[Vec<f64>], lobes: std::ops::Range<usize>) -> f64 {
+/// What brings the weights `lobes` of all channels into the range of `model`'s text, in which they are called `name`: 1
+/// unless one of them is larger.
+fn excess(weights: &[Vec<f64>], lobes: Range<usize>, (model, name): (&str, &str)) -> f64 {
+    let info = MODELS.iter().find(|m| m.name == model);
+    let parameter = info.and_then(|m| m.parameters.iter().find(|p| p.name == name));
+    let most = parameter.map_or(f64::INFINITY, |p| p.range.1);
     let all = weights.iter().flat_map(|w| &w[lobes.clone()]);
     let largest = all.copied().fold(0.0, f64::max);
-    if largest > LARGEST_WEIGHT {
-        largest
-    } else {
-        1.0
-    }
+    if largest > most { largest } else { 1.0 }
 }
 
 /// All weights over `factor`.
@@ -138,20 +136,22 @@ fn over(weights: &[Vec<f64>], factor: f64) -> Vec<Vec<f64>> {
 
 /// A part without a factor.
 fn whole(text: String, channels: usize) -> Part {
+    times(1.0, text, channels)
+}
+
+/// A part with one factor for all channels.
+fn times(factor: f64, text: String, channels: usize) -> Part {
     Part {
         text,
-        scale: vec![1.0; channels],
+        scale: vec![factor; channels],
     }
 }
 
 /// The Lambert lobe of the weights `index`, with what goes beyond an albedo of 1 in the factor.
 fn lambert(weights: &[Vec<f64>], index: usize) -> Part {
     let largest = weights.iter().map(|w| w[index]).fold(1.0, f64::max);
-    let scaled: Vec<Vec<f64>> = weights.iter().map(|w| vec![w[index] / largest]).collect();
-    Part {
-        text: format!("lambert:kd={}", channels(&scaled, 0)),
-        scale: vec![largest; weights.len()],
-    }
+    let kd = channels(&over(weights, largest), index);
+    times(largest, format!("lambert:kd={kd}"), weights.len())
 }
 
 #[cfg(test)]
@@ -163,11 +163,13 @@ mod tests {
     #[test]
     fn weights_beyond_what_a_text_may_hold_go_into_the_factor() {
         let (wi, wo) = (direction(0.5, 0.0), direction(0.6, 2.9));
+        let mut seen = 0;
         for name in families() {
             let family = family(name, 1).unwrap();
             if family.weights().len() != 2 {
                 continue;
             }
+            seen += 1;
             let shape: Vec<f64> = family.shape().iter().map(|s| s.starts[0]).collect();
             for ks in [[0.5, 0.2, 0.1], [5000.0, 2.0, 300.0]] {
                 let weights = ks.map(|ks| vec![0.2, ks]);
@@ -184,5 +186,6 @@ mod tests {
                 }
             }
         }
+        assert!(seen > 10, "only {seen} families have a lobe");
     }
 }

@@ -151,8 +151,25 @@ fn climb(ratio: impl Fn(DVec2) -> f64, mut at: DVec2, mut value: f64, mut step: 
 
 #[cfg(test)]
 mod tests {
-    use super::measure;
+    use super::{climb, measure};
+    use glam::DVec2;
+    use std::cell::Cell;
     use std::f64::consts::PI;
+
+    #[test]
+    fn a_ridge_across_both_axes_is_climbed_in_strides() {
+        // a ten-thousandth wide and half the square long
+        let calls = Cell::new(0);
+        let ridge = |p: DVec2| {
+            calls.set(calls.get() + 1);
+            let (across, along) = ((p.x - p.y) / 1e-4, (p.x + p.y - 1.0) / 0.5);
+            (-across * across - along * along).exp()
+        };
+        let start = DVec2::new(0.2, 0.20003);
+        let found = climb(ridge, start, ridge(start), 1e-3);
+        assert!(found > 0.999, "{found}");
+        assert!(calls.get() < 5000, "{} calls", calls.get());
+    }
 
     #[test]
     fn lambert_has_known_integral_and_maximum() {

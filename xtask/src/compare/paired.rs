@@ -12,7 +12,7 @@ use std::time::Instant;
 const FEW: u32 = 16;
 /// Samples a pixel where the start does not matter.
 const MANY: u32 = 64;
-/// Pairs of whole processes, unless `--pairs` says otherwise.
+/// Pairs of whole processes; `--pairs` may ask for more.
 const PAIRS: usize = 7;
 
 /// Seconds from the start of the process to its end.

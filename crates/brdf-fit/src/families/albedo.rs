@@ -3,7 +3,7 @@
 //! For a fixed shape f is a smooth function of the albedo alone: it is interpolated in it through Chebyshev points of
 //! [0, 1], so that the model becomes a sum of lobes (its values at these albedos) times polynomials of the albedo.
 
-use super::{build, channels, whole};
+use super::{build, channels, over, times};
 use crate::family::{Channels, Family, Lobes, Part, Scale, ShapeParameter, Weight};
 
 /// A model of one albedo `kd` and one shape parameter.
@@ -113,10 +113,9 @@ impl Family for Albedo {
     fn parts(&self, shape: &[f64], weights: &[Vec<f64>]) -> Vec<Part> {
         // an albedo above 1 is no albedo: the brightest channel is brought to 1, the factor says by how much
         let largest = weights.iter().map(|w| w[0]).fold(1.0, f64::max);
-        let scaled: Vec<Vec<f64>> = weights.iter().map(|w| vec![w[0] / largest]).collect();
-        let mut part = whole(self.text(shape[0], &channels(&scaled, 0)), weights.len());
-        part.scale.fill(largest);
-        vec![part]
+        let kd = channels(&over(weights, largest), 0);
+        let text = self.text(shape[0], &kd);
+        vec![times(largest, text, weights.len())]
     }
 }
 

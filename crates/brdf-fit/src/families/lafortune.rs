@@ -1,7 +1,7 @@
 //! Lafortune's lobes with isotropic axes [Lafortune1997].
 
 use super::registry::Sum;
-use super::{build, channels, excess, exponent, lambert, numbered, over, whole};
+use super::{build, channels, excess, exponent, lambert, numbered, over, times, whole};
 use crate::family::{Channels, Family, Lobes, Part, Scale, ShapeParameter, Weight};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -75,7 +75,7 @@ impl Family for Lafortune {
 
     fn parts(&self, shape: &[f64], weights: &[Vec<f64>]) -> Vec<Part> {
         let count = Self::lobes_of(shape).count();
-        let factor = excess(weights, 1..1 + count);
+        let factor = excess(weights, 1..1 + count, (NAME, "ks"));
         let scaled = over(weights, factor);
         let lobes: Vec<String> = Self::lobes_of(shape)
             .enumerate()
@@ -98,10 +98,7 @@ impl Family for Lafortune {
         }
         vec![
             lambert(weights, 0),
-            Part {
-                text: format!("{lobes},kd=0"),
-                scale: vec![factor; weights.len()],
-            },
+            times(factor, format!("{lobes},kd=0"), weights.len()),
         ]
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{
     EXPONENT_RANGE, EXPONENTS, REFLECTANCE_RANGE, REFLECTANCES, ROUGHNESSES, build, channels,
-    excess, lambert, numbered, over,
+    excess, lambert, numbered, over, times,
 };
 use crate::family::{Channels, Family, Lobes, Part, Scale, ShapeParameter, Weight};
 use glam::DVec3;
@@ -226,9 +226,9 @@ impl Family for Registered {
     }
 
     fn parts(&self, shape: &[f64], weights: &[Vec<f64>]) -> Vec<Part> {
-        let together =
-            weights.iter().all(|w| w[0] <= 1.0) && excess(weights, 1..2.min(1 + self.lobes)) <= 1.0;
-        if self.lobes == 0 || !together {
+        let apart =
+            self.lobes == 0 || weights.iter().any(|w| w[0] > 1.0) || self.excess(weights, 0) > 1.0;
+        if apart {
             let lobes = (0..self.lobes).map(|lobe| self.part(shape, weights, lobe, false));
             return std::iter::once(lambert(weights, 0)).chain(lobes).collect();
         }
@@ -245,12 +245,15 @@ impl Registered {
         } else {
             "0".into()
         };
-        let factor = excess(weights, 1 + lobe..2 + lobe);
+        let factor = self.excess(weights, lobe);
         let ks = channels(&over(weights, factor), 1 + lobe);
-        Part {
-            text: self.weighted(shape, lobe, &ks, &kd),
-            scale: vec![factor; weights.len()],
-        }
+        let text = self.weighted(shape, lobe, &ks, &kd);
+        times(factor, text, weights.len())
+    }
+
+    fn excess(&self, weights: &[Vec<f64>], lobe: usize) -> f64 {
+        let name = (self.entry.name, self.entry.weight);
+        excess(weights, 1 + lobe..2 + lobe, name)
     }
 }
 
